@@ -1,0 +1,182 @@
+"""Sense, think and turn, for all lanes at once (spec sections 4 and 5)."""
+
+import numpy as np
+from numba import njit
+
+from arm2d.arithmetic import sigmoid
+from arm2d.constants import (
+    ALPHA_MAX,
+    ALPHA_MIN,
+    BETA_MAX,
+    DT,
+    MIDDLE_SECTOR_HALF_WIDTH,
+    N_INPUTS,
+    N_INTER,
+    VIEW_HALF_WIDTH,
+)
+from arm2d.kernel.lanes import (
+    ALPHA,
+    BETA,
+    CAMERA,
+    DRIVE,
+    HIGH,
+    LOW,
+    N_LANES,
+    NEXT_BETA,
+    TOUCH,
+    TURN,
+    WORDS,
+    Y,
+    Z,
+)
+
+# Places of the inputs in spec section 4, from 0.
+FIRST_CAMERA_INPUT = 2
+BEND_INPUT = 11
+OBJECT_WORD_INPUTS = 12
+ACTION_WORD_INPUTS = 15
+
+# Where the parameters of one network stand; the order of the genes (spec section 6).
+RECURRENT = 54
+MOTOR = 63
+TAU = 75
+INPUT_BIAS = 78
+INTER_BIAS = 79
+MOTOR_BIAS = 82
+GAIN = 83
+
+N_CAMERA_CODES = 512
+
+
+@njit(cache=True, error_model="numpy", inline="never")
+def tabulate_drives(network, world, codes, touch, camera, bend, words):
+    """Fill in what each state of each kind of input adds to the three inter-neurons.
+
+    Args:
+        network: [84] parameters in the order of the genes.
+        world: The readings' world; its grid of beta is used.
+        codes: [7, 3], the words' codes: three objects, then four actions.
+        touch: [4, 3] by the code of I1, I2.
+        camera: [512, 3] by the code of I3..I11.
+        bend: [B, 3] by the index of beta.
+        words: [4, 3, 3] by action and object.
+    """
+    bias, gain = network[INPUT_BIAS], network[GAIN]
+    off, on = sigmoid(bias), sigmoid(gain + bias)
+    weights = network[: N_INPUTS * N_INTER].reshape(N_INPUTS, N_INTER)
+    sectors = np.empty((3, 8, N_INTER))
+    for j in range(N_INTER):
+        for code in range(4):
+            touch[code, j] = _sum_of_bits(weights, 0, 2, code, off, on, j)
+        for sector in range(3):
+            for code in range(8):
+                first = FIRST_CAMERA_INPUT + 3 * sector
+                sectors[sector, code, j] = _sum_of_bits(weights, first, 3, code, off, on, j)
+        for index in range(len(world.beta)):
+            bend[index, j] = weights[BEND_INPUT, j] * sigmoid(gain * (world.beta[index] / BETA_MAX) + bias)
+        for action in range(4):
+            for object_ in range(3):
+                total = 0.0
+                for i in range(3):
+                    total += weights[OBJECT_WORD_INPUTS + i, j] * (on if codes[object_, i] else off)
+                for i in range(3):
+                    total += weights[ACTION_WORD_INPUTS + i, j] * (on if codes[3 + action, i] else off)
+                words[action, object_, j] = total
+    for left in range(8):
+        for middle in range(8):
+            for right in range(8):
+                for j in range(N_INTER):
+                    camera[64 * left + 8 * middle + right, j] = (
+                        sectors[0, right, j] + sectors[1, middle, j] + sectors[2, left, j]
+                    )
+
+
+@njit(cache=True, error_model="numpy")
+def _sum_of_bits(weights, first, count, code, off, on, j):
+    """Drive on inter-neuron j of `count` inputs from `first` on, whose values are the bits of `code`."""
+    total = 0.0
+    for i in range(count):
+        total += weights[first + i, j] * (on if (code >> i) & 1 else off)
+    return total
+
+
+@njit(cache=True, error_model="numpy")
+def sense_camera(s, n, lanes, right, left):
+    """Set the nine camera bits of each lane; alpha at or beyond `right` or `left` [deg] sees white."""
+    for i in range(lanes):
+        alpha = s[ALPHA + i]
+        code = 7 if alpha <= right else 0
+        code |= 7 << 6 if alpha >= left else 0
+        for disc in range(3):
+            low = s[LOW + disc * N_LANES + i] - alpha
+            high = s[HIGH + disc * N_LANES + i] - alpha
+            first = (low < -MIDDLE_SECTOR_HALF_WIDTH) & (high >= -VIEW_HALF_WIDTH)
+            middle = (low <= MIDDLE_SECTOR_HALF_WIDTH) & (high >= -MIDDLE_SECTOR_HALF_WIDTH)
+            last = (low <= VIEW_HALF_WIDTH) & (high > MIDDLE_SECTOR_HALF_WIDTH)
+            code |= (1 << disc if first else 0) | (8 << disc if middle else 0) | (64 << disc if last else 0)
+        n[CAMERA + i] = code
+
+
+@njit(cache=True, error_model="numpy")
+def gather_drives(s, n, lanes, touch, camera, bend):
+    """Add up what words, touch, camera and bend drive (eq. 1 and the first sum of eq. 2)."""
+    for i in range(lanes):
+        t, code, b = n[TOUCH + i], n[CAMERA + i], n[BETA + i]
+        for j in range(N_INTER):
+            words = s[WORDS + j * N_LANES + i]
+            s[DRIVE + j * N_LANES + i] = words + touch[t, j] + camera[code, j] + bend[b, j]
+
+
+@njit(cache=True, error_model="numpy")
+def think(s, lanes, network):
+    """Advance the inter-neurons by one Euler step (eq. 2)."""
+    w00, w01, w02 = network[RECURRENT], network[RECURRENT + 1], network[RECURRENT + 2]
+    w10, w11, w12 = network[RECURRENT + 3], network[RECURRENT + 4], network[RECURRENT + 5]
+    w20, w21, w22 = network[RECURRENT + 6], network[RECURRENT + 7], network[RECURRENT + 8]
+    rate0, rate1, rate2 = DT / network[TAU], DT / network[TAU + 1], DT / network[TAU + 2]
+    bias0, bias1, bias2 = network[INTER_BIAS], network[INTER_BIAS + 1], network[INTER_BIAS + 2]
+    for i in range(lanes):
+        y0, y1, y2 = s[Y + i], s[Y + N_LANES + i], s[Y + 2 * N_LANES + i]
+        z0, z1, z2 = s[Z + i], s[Z + N_LANES + i], s[Z + 2 * N_LANES + i]
+        total0 = s[DRIVE + i] + (w00 * z0 + w10 * z1 + w20 * z2)
+        total1 = s[DRIVE + N_LANES + i] + (w01 * z0 + w11 * z1 + w21 * z2)
+        total2 = s[DRIVE + 2 * N_LANES + i] + (w02 * z0 + w12 * z1 + w22 * z2)
+        y0 += rate0 * (total0 - y0)
+        y1 += rate1 * (total1 - y1)
+        y2 += rate2 * (total2 - y2)
+        s[Y + i], s[Y + N_LANES + i], s[Y + 2 * N_LANES + i] = y0, y1, y2
+        s[Z + i] = sigmoid(y0 + bias0)
+        s[Z + N_LANES + i] = sigmoid(y1 + bias1)
+        s[Z + 2 * N_LANES + i] = sigmoid(y2 + bias2)
+
+
+@njit(cache=True, error_model="numpy")
+def turn(s, n, lanes, network, turn_size):
+    """Turn the joints as the motor neurons say (eq. 3).
+
+    Only signs matter: f > 0.5 where the neuron's input is positive. NEXT_BETA receives the direction
+    of S2's turn (0, 1, 2), which the contact stage looks up on the grid of beta.
+    """
+    bias = network[MOTOR_BIAS]
+    w = network[MOTOR : MOTOR + 12]
+    go1_0, way1_0, go2_0, way2_0 = w[0], w[1], w[2], w[3]
+    go1_1, way1_1, go2_1, way2_1 = w[4], w[5], w[6], w[7]
+    go1_2, way1_2, go2_2, way2_2 = w[8], w[9], w[10], w[11]
+    for i in range(lanes):
+        z0, z1, z2 = s[Z + i], s[Z + N_LANES + i], s[Z + 2 * N_LANES + i]
+        go1 = go1_0 * z0 + go1_1 * z1 + go1_2 * z2 + bias
+        way1 = way1_0 * z0 + way1_1 * z1 + way1_2 * z2 + bias
+        go2 = go2_0 * z0 + go2_1 * z1 + go2_2 * z2 + bias
+        way2 = way2_0 * z0 + way2_1 * z1 + way2_2 * z2 + bias
+        step = turn_size if way1 < 0.0 else 0.0
+        step = -turn_size if way1 > 0.0 else step
+        step = step if go1 > 0.0 else 0.0
+        before = s[ALPHA + i]
+        after = before + step
+        after = after if after > ALPHA_MIN else ALPHA_MIN
+        after = after if after < ALPHA_MAX else ALPHA_MAX
+        s[ALPHA + i] = after
+        s[TURN + i] = after - before
+        direction = 2 if way2 < 0.0 else 1
+        direction = 0 if way2 > 0.0 else direction
+        n[NEXT_BETA + i] = direction if go2 > 0.0 else 1

@@ -1,0 +1,226 @@
+"""The trials of each genotype from first to last: lanes start, advance, end and are refilled."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from arm2d.arithmetic import sigmoid
+from arm2d.constants import N_INTER, N_OBJECTS, VIEW_HALF_WIDTH
+from arm2d.kernel import lanes as at
+from arm2d.kernel.contact import move_and_touch, place_disc
+from arm2d.kernel.controller import (
+    INTER_BIAS,
+    N_CAMERA_CODES,
+    gather_drives,
+    sense_camera,
+    tabulate_drives,
+    think,
+    turn,
+)
+from arm2d.kernel.lanes import BLOCK, N_FLOAT_FIELDS, N_INTEGER_FIELDS, N_LANES
+from arm2d.kernel.scores import (
+    final_scores,
+    offset_from_target,
+    remember_stretch,
+    score_step,
+    set_criterion,
+)
+
+
+class TrialArrays(NamedTuple):
+    """T trials as plain arrays.
+
+    Attributes:
+        action: [T] and
+        object: [T], the instruction that is scored.
+        alpha: [T] in [deg].
+        bearing: [T, 3] of the discs in [deg].
+        distance: [T, 3] of the discs from J1 in [cm].
+        heard: [T, 2, 2], (action, object) heard before and after the words change.
+        delay: [T], steps from the target's coming into view to the change, or NO_CHANGE.
+    """
+
+    action: NDArray[np.int64]
+    object: NDArray[np.int64]
+    alpha: NDArray[np.float64]
+    bearing: NDArray[np.float64]
+    distance: NDArray[np.float64]
+    heard: NDArray[np.int64]
+    delay: NDArray[np.int64]
+
+
+class Outcomes(NamedTuple):
+    """What becomes of P genotypes in T trials, each [P, T]; filled in by the kernel."""
+
+    f1: NDArray[np.float64]
+    f2: NDArray[np.float64]
+    f3: NDArray[np.float64]
+    success: NDArray[np.bool_]
+    steps: NDArray[np.int64]
+
+
+NO_CHANGE: Final = -1
+
+# Columns of a recording; one row for each step.
+RECORD_ALPHA: Final = 0
+RECORD_BETA: Final = 1
+RECORD_TURN: Final = 2
+RECORD_STATE: Final = 3
+RECORD_BEARING: Final = 6
+RECORD_DISTANCE: Final = 9
+RECORD_SIDE: Final = 12
+RECORD_CAMERA: Final = 15
+RECORD_TOUCH: Final = 16
+RECORD_CHANGED: Final = 17
+RECORD_COLUMNS: Final = 18
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def run_population(networks, trials, world, codes, outcomes, recording):
+    """Run all trials with every network, one network after the other.
+
+    Args:
+        networks: [P, 84] parameters in the order of the genes.
+        trials: `TrialArrays` of T trials.
+        world: `World` of the readings.
+        codes: [7, 3], the words' codes: three objects, then four actions.
+        outcomes: `Outcomes` to be filled in.
+        recording: [K, RECORD_COLUMNS] for a single trial of a single network, else [0, RECORD_COLUMNS].
+    """
+    s = np.zeros(N_FLOAT_FIELDS * N_LANES)
+    n = np.zeros(N_INTEGER_FIELDS * N_LANES, np.int64)
+    touch, camera = np.empty((4, N_INTER)), np.empty((N_CAMERA_CODES, N_INTER))
+    bend, words = np.empty((len(world.beta), N_INTER)), np.empty((4, N_OBJECTS, N_INTER))
+    for p in range(len(networks)):
+        tabulate_drives(networks[p], world, codes, touch, camera, bend, words)
+        _run_network(p, networks[p], trials, world, s, n, touch, camera, bend, words, outcomes, recording)
+
+
+@njit(cache=True, error_model="numpy")
+def _run_network(p, network, trials, world, s, n, touch, camera, bend, words, outcomes, recording):
+    """Run all trials with one network, N_LANES at a time."""
+    n_trials = len(trials.action)
+    active, waiting = 0, 0
+    while active < N_LANES and waiting < n_trials:
+        _start(s, n, active, waiting, network, trials, world, words)
+        active, waiting = active + 1, waiting + 1
+    changing = np.any(trials.delay != NO_CHANGE)
+    steps = 0
+    while active > 0:
+        lanes = (active + BLOCK - 1) // BLOCK * BLOCK
+        sense_camera(s, n, lanes, world.white_right, world.white_left)
+        gather_drives(s, n, lanes, touch, camera, bend)
+        think(s, lanes, network)
+        turn(s, n, lanes, network, world.turn)
+        move_and_touch(s, n, active, world, trials.object)
+        if steps < len(recording):
+            _record(s, n, world, recording[steps])
+        if world.best_stretch:
+            remember_stretch(s, n, active, world)
+        if changing:
+            _change_words(s, n, active, trials, words)
+        steps += 1
+        if score_step(s, n, lanes, world.keep) == 0:
+            continue
+        i = 0
+        while i < active:
+            if n[at.DONE + i] == 0:
+                i += 1
+                continue
+            _finish(s, n, i, p, trials, world, outcomes)
+            if waiting < n_trials:
+                _start(s, n, i, waiting, network, trials, world, words)
+                waiting += 1
+            else:
+                active -= 1
+                _copy_lane(s, n, active, i)
+
+
+@njit(cache=True, error_model="numpy")
+def _start(s, n, i, trial, network, trials, world, words):
+    """Put lane i at the start of a trial."""
+    n[at.TRIAL + i] = trial
+    s[at.ALPHA + i] = trials.alpha[trial]
+    n[at.BETA + i] = 0  # the grid of beta begins with the starting angle
+    for j in range(N_INTER):
+        s[at.Y + j * N_LANES + i] = 0.0
+        s[at.Z + j * N_LANES + i] = sigmoid(0.0 + network[INTER_BIAS + j])
+    for disc in range(N_OBJECTS):
+        n[at.SIDE + disc * N_LANES + i] = at.NONE
+        place_disc(s, disc * N_LANES + i, i, trials.bearing[trial, disc], trials.distance[trial, disc], world)
+    s[at.TARGET + i] = trials.bearing[trial, trials.object[trial]]
+    s[at.FIRST_OFFSET + i] = offset_from_target(s, i)
+    n[at.TOUCH + i] = 0
+    n[at.TARGET_SIDE + i] = at.NONE
+    n[at.COLLIDED + i] = 0
+    n[at.STEP + i] = 0
+    n[at.DONE + i] = 0
+    s[at.RUN + i] = 0.0
+    s[at.BEST + i] = 0.0
+    s[at.STRETCH + i] = 0.0
+    n[at.WAIT + i] = at.NOT_SEEN
+    set_criterion(s, n, i, trials.action[trial], world)
+    _hear(s, i, trials.heard[trial, 0], words)
+
+
+@njit(cache=True, error_model="numpy")
+def _hear(s, i, instruction, words):
+    """Let lane i hear an instruction (action, object)."""
+    for j in range(N_INTER):
+        s[at.WORDS + j * N_LANES + i] = words[instruction[0], instruction[1], j]
+
+
+@njit(cache=True, error_model="numpy")
+def _change_words(s, n, lanes, trials, words):
+    """Change the instruction where the drawn number of steps has passed since the target was seen."""
+    for i in range(lanes):
+        delay = trials.delay[n[at.TRIAL + i]]
+        if delay == NO_CHANGE or n[at.WAIT + i] == at.CHANGED:
+            continue
+        if n[at.WAIT + i] != at.NOT_SEEN:
+            n[at.WAIT + i] -= 1
+        elif offset_from_target(s, i) <= VIEW_HALF_WIDTH:
+            n[at.WAIT + i] = delay
+        if n[at.WAIT + i] == 0:
+            n[at.WAIT + i] = at.CHANGED
+            _hear(s, i, trials.heard[n[at.TRIAL + i], 1], words)
+
+
+@njit(cache=True, error_model="numpy")
+def _finish(s, n, i, p, trials, world, outcomes):
+    """Score the ended trial of lane i."""
+    trial = n[at.TRIAL + i]
+    f1, f2, f3, success = final_scores(s, n, i, world, trials.action[trial])
+    outcomes.f1[p, trial] = f1
+    outcomes.f2[p, trial] = f2
+    outcomes.f3[p, trial] = f3
+    outcomes.success[p, trial] = success
+    outcomes.steps[p, trial] = n[at.STEP + i]
+
+
+@njit(cache=True, error_model="numpy")
+def _copy_lane(s, n, source, target):
+    """Move a trial to another lane."""
+    for field in range(N_FLOAT_FIELDS):
+        s[field * N_LANES + target] = s[field * N_LANES + source]
+    for field in range(N_INTEGER_FIELDS):
+        n[field * N_LANES + target] = n[field * N_LANES + source]
+
+
+@njit(cache=True, error_model="numpy")
+def _record(s, n, world, row):
+    """Write down lane 0 after a step, before the words may change."""
+    row[RECORD_ALPHA] = s[at.ALPHA]
+    row[RECORD_BETA] = world.beta[n[at.BETA]]
+    row[RECORD_TURN] = s[at.TURN]
+    row[RECORD_CAMERA] = n[at.CAMERA]
+    row[RECORD_TOUCH] = n[at.TOUCH]
+    row[RECORD_CHANGED] = 1.0 if n[at.WAIT] == at.CHANGED else 0.0
+    for j in range(N_INTER):
+        row[RECORD_STATE + j] = s[at.Y + j * N_LANES]
+    for disc in range(N_OBJECTS):
+        row[RECORD_BEARING + disc] = s[at.BEARING + disc * N_LANES]
+        row[RECORD_DISTANCE + disc] = s[at.DISTANCE + disc * N_LANES]
+        row[RECORD_SIDE + disc] = n[at.SIDE + disc * N_LANES]

@@ -1,0 +1,189 @@
+"""The ledger of readings: one field for everything the paper leaves open (spec section 12).
+
+Each field's documentation gives the paper's words first, then the readings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from itertools import pairwise
+from math import degrees
+from typing import Any, Literal, get_args, get_origin, get_type_hints
+
+# Turn of a joint per step, half-width of "on target", angle of a full MOVE [deg].
+TURN_SETS = {"degrees": (2.9, 4.6, 34.4), "radians": (degrees(0.05), degrees(0.08), degrees(0.6))}
+
+
+@dataclass(frozen=True)
+class Readings:
+    """One way to understand the paper. A run stores the whole record."""
+
+    mutation_probability: float = 0.4
+    """"with a probability of 0.4". Per gene; 0.04 would make one mutation in 25 genes."""
+
+    mutation_sd: float = 0.1
+    """Standard deviation of a mutation's Gaussian offset, printed as 0.1; 0.03 with probability 0.4
+    takes the same total step as 0.04 with 0.1."""
+
+    parent_scaling: Literal["raw", "cubed"] = "raw"
+    """"fitness-proportional": parents are drawn in proportion to their fitness or to its cube."""
+
+    bias_ranges: Literal["symmetric", "negative"] = "symmetric"
+    """"[-4, -4]" and "[-5, -5]", both empty: [-4, 4] and [-5, 5]; or beta_I in [-4, -2]."""
+
+    tau_exponent_max: float = 2.0
+    """"10^2.0", of which the paper says "about 4 %" of a trial; 1.0 and 0.0 are nearer to that."""
+
+    object_radius: float = 5.0
+    """Only in Fig. 1b. [cm]; must stay below 11.8, or a straight S2 touching a disc is never on target."""
+
+    sector_half_width: float = 10.0
+    """Only in Fig. 1b. [deg]; half the width of each object's sector seen from J1."""
+
+    start_areas: Literal["between", "bounds"] = "between"
+    """Only in Fig. 1b. S1 starts midway between neighbouring sectors, or at its bounds."""
+
+    sector_centres: tuple[float, float, float] = (30.0, 90.0, 150.0)
+    """Only in Fig. 1b. [deg]; bearing of the middle of the blue, green and red sector."""
+
+    bound_vision: Literal["at", "near"] = "at"
+    """White "when S1 reaches the bound": at the bound only, or within 15 degrees of it."""
+
+    object_vision: Literal["centre", "any_part"] = "centre"
+    """"falls within the sector": the disc's centre does, or any part of the disc."""
+
+    turn: Literal["degrees", "radians"] = "degrees"
+    """2.9, 4.6 and 34.4 degrees as printed, or the 0.05, 0.08 and 0.6 rad that round to them."""
+
+    success: Literal["f1_f2", "f1_f2_f3"] = "f1_f2"
+    """"F_tot = 1", though the sum reaches 3: F1 = F2 = 1, or F3 > 0.99 as well."""
+
+    run_counting: Literal["uninterrupted", "cumulative"] = "uninterrupted"
+    """"uninterrupted interval" (III), "number of time steps" (VI): a bad step resets the count, or not."""
+
+    indicate_angle: Literal["narrow", "wide"] = "narrow"
+    """30 (III) or 4.6 degrees (VI): how near INDICATE's good steps must be. F1 keeps 4.6."""
+
+    f3_time: Literal["end", "best"] = "end"
+    """Not said: F3 is taken at the end of the trial, or at its best step with the target in view."""
+
+    ignore_stops: Literal["early", "never"] = "early"
+    """The early end is listed for INDICATE, TOUCH and MOVE only: IGNORE ends at 100 too, or runs on."""
+
+    starts_shared: Literal["generation", "genotype"] = "generation"
+    """Not said: all genotypes of a generation meet the same starts, or each its own."""
+
+    collision_penalty: Literal["ratio", "whole"] = "ratio"
+    """The line of eq. 5 is garbled: P1 scales the distance ratio only, or the whole of F1."""
+
+    def __post_init__(self) -> None:
+        for name, allowed in choices().items():
+            if getattr(self, name) not in allowed:
+                raise ValueError(f"reading {name} = {getattr(self, name)!r}; choose {' or '.join(allowed)}")
+        if isinstance(self.sector_centres, list):
+            object.__setattr__(self, "sector_centres", tuple(self.sector_centres))
+        _check_geometry(self)
+        _check_interval("mutation_probability", self.mutation_probability, 0.0, 1.0)
+        _check_interval("mutation_sd", self.mutation_sd, 0.0, 1.0)
+        _check_interval("tau_exponent_max", self.tau_exponent_max, -1.0, 3.0)
+
+    @classmethod
+    def preset(cls, name: str) -> Readings:
+        """The readings called `name`: `default` or `printed`."""
+        if name not in PRESETS:
+            raise ValueError(f"unknown preset of readings {name!r}; there are {', '.join(PRESETS)}")
+        return PRESETS[name]
+
+    @classmethod
+    def from_mapping(cls, values: Mapping[str, Any]) -> Readings:
+        """Readings from plain values, as read from a config file.
+
+        Raises:
+            ValueError: If a name is unknown or a value is not one of its readings.
+        """
+        return cls().with_values(values)
+
+    def with_values(self, values: Mapping[str, Any]) -> Readings:
+        """These readings with some fields replaced; see `from_mapping` for what is refused."""
+        known = {each.name: each.type for each in fields(self)}
+        for name, value in values.items():
+            if name not in known:
+                raise ValueError(f"unknown reading {name!r}; there are {', '.join(known)}")
+            _check_type(name, value)
+        return replace(self, **values)
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Every field as a plain value, ready for a config file."""
+        return {**asdict(self), "sector_centres": list(self.sector_centres)}
+
+    @property
+    def turn_size(self) -> float:
+        """Turn of a joint per control step [deg]."""
+        return TURN_SETS[self.turn][0]
+
+    @property
+    def target_cone(self) -> float:
+        """S1 is on target when nearer to its bearing than this [deg]."""
+        return TURN_SETS[self.turn][1]
+
+    @property
+    def indicate_cone(self) -> float:
+        """The same for INDICATE's good steps [deg]."""
+        return 30.0 if self.indicate_angle == "wide" else self.target_cone
+
+    @property
+    def move_angle(self) -> float:
+        """MOVE succeeds when S1 has pushed the target over this angle [deg]."""
+        return TURN_SETS[self.turn][2]
+
+    @property
+    def start_intervals(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Start angles of S1 [deg]: the right and the left area."""
+        if self.start_areas == "bounds":
+            return (-30.0, 0.0), (180.0, 210.0)
+        blue, green, red = self.sector_centres
+        right, left = (blue + green) / 2, (green + red) / 2
+        return (right - 4.0, right + 4.0), (left - 4.0, left + 4.0)
+
+
+def choices() -> dict[str, tuple[str, ...]]:
+    """The allowed values of every reading that is a choice between words."""
+    hints = get_type_hints(Readings)
+    return {name: get_args(hint) for name, hint in hints.items() if get_origin(hint) is Literal}
+
+
+def _check_geometry(readings: Readings) -> None:
+    """Refuse worlds in which the experiment makes no sense."""
+    _check_interval("object_radius", readings.object_radius, 0.1, 11.8)
+    _check_interval("sector_half_width", readings.sector_half_width, 0.1, 30.0)
+    centres = readings.sector_centres
+    if len(centres) != 3 or not all(-15.0 <= a < b <= 195.0 for a, b in pairwise(centres)):
+        raise ValueError(
+            f"reading sector_centres = {centres}; "
+            "give three rising bearings in [-15, 195] degrees, such as 30, 90, 150"
+        )
+
+
+def _check_interval(name: str, value: float, low: float, high: float) -> None:
+    """Refuse a number outside [low, high], NaN included."""
+    if not low <= value <= high:
+        raise ValueError(f"reading {name} = {value:g} must lie in [{low:g}, {high:g}]")
+
+
+def _check_type(name: str, value: Any) -> None:
+    """Refuse a value of the wrong kind before the comparisons would fail on it."""
+    default = getattr(Readings, name)
+    if isinstance(default, str):
+        fits = isinstance(value, str)
+    elif isinstance(default, float):
+        fits = isinstance(value, (int, float)) and not isinstance(value, bool)
+    else:
+        fits = isinstance(value, (list, tuple)) and all(isinstance(v, (int, float)) for v in value)
+    if not fits:
+        raise ValueError(f"reading {name} = {value!r} is not of the kind of its default {default!r}")
+
+
+# `printed` takes the paper at its word wherever the word can run. The default does so already but
+# in one place: section VI lists an early end for INDICATE, TOUCH and MOVE, not for IGNORE.
+PRESETS = {"default": Readings(), "printed": Readings(ignore_stops="never")}

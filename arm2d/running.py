@@ -1,0 +1,159 @@
+"""Run trials with genotypes: from records to the compiled kernel and back.
+
+Axes: P genotypes, T trials, K steps.
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from arm2d import constants as c
+from arm2d.arithmetic import bearing
+from arm2d.controller import check_genotypes, decode_flat
+from arm2d.instructions import ACTION_CODES, OBJECT_CODES
+from arm2d.kernel import loop
+from arm2d.kernel.world import world_of
+from arm2d.readings import Readings
+from arm2d.trials import TrialRecord, Trials, TrialScores
+
+# [7, 3]: three object words, then four action words.
+WORD_CODES = np.array([*OBJECT_CODES.values(), *(ACTION_CODES[action] for action in sorted(ACTION_CODES))])
+NO_RECORDING = np.empty((0, loop.RECORD_COLUMNS))
+
+
+def run_trials(
+    genotypes: ArrayLike, trials: Trials, readings: Readings | None = None, *, threads: int = 1
+) -> TrialScores:
+    """Run every trial with every genotype.
+
+    Args:
+        genotypes: [P, 84], genes in [0, 1]; a single one [84] is a batch of one.
+        trials: T trials, the same for all genotypes.
+        readings: The world; the default readings if none are given.
+        threads: Genotypes are shared out among so many threads. The results do not depend on it.
+
+    Returns:
+        Scores with arrays [P, T].
+
+    Raises:
+        ValueError: If a genotype has another shape, or a gene is not a number in [0, 1].
+    """
+    readings = readings or Readings()
+    if threads < 1:
+        raise ValueError(f"asked for {threads} threads; there must be at least 1")
+    genes = check_genotypes(genotypes)
+    networks, arrays = decode_flat(genes, readings), _arrays_of(trials)
+    outcomes = _empty_outcomes(len(genes), len(trials))
+
+    def run(part: slice) -> None:
+        own = loop.Outcomes(*(each[part] for each in outcomes))
+        loop.run_population(networks[part], arrays, world_of(readings), WORD_CODES, own, NO_RECORDING)
+
+    parts = _parts(len(genes), threads)
+    if len(parts) == 1:
+        run(parts[0])
+    else:
+        with ThreadPoolExecutor(len(parts)) as pool:
+            list(pool.map(run, parts))
+    return TrialScores(*outcomes)
+
+
+def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None = None) -> TrialRecord:
+    """Run one trial with one genotype and keep every step.
+
+    Args:
+        genotype: [84].
+        trial: A batch of one, such as `trials[0]`.
+        readings: The world; the default readings if none are given.
+
+    Raises:
+        ValueError: If there is more than one trial or genotype, or the genotype is unsound.
+    """
+    readings = readings or Readings()
+    genes = check_genotypes(genotype)
+    if len(trial) != 1 or len(genes) != 1:
+        raise ValueError(
+            f"a recording takes one genotype and one trial, not {len(genes)} and {len(trial)}; "
+            "take one by its index, such as genotypes[0] and trials[0]"
+        )
+    outcomes = _empty_outcomes(1, 1)
+    rows = np.empty((c.MAX_STEPS, loop.RECORD_COLUMNS))
+    networks = decode_flat(genes, readings)
+    loop.run_population(networks, _arrays_of(trial), world_of(readings), WORD_CODES, outcomes, rows)
+    scores = TrialScores(*outcomes)
+    return _record_of(trial, readings, rows[: scores.steps[0, 0]], scores)
+
+
+def _arrays_of(trials: Trials) -> loop.TrialArrays:
+    """The trials as the kernel takes them: discs by bearing and distance, and the words heard."""
+    x, y = trials.discs[..., 0], trials.discs[..., 1]
+    bearings = [bearing(*point) for point in trials.discs.reshape(-1, 2)]
+    heard = np.stack([trials.actions, trials.objects], axis=-1)
+    words, delays = np.stack([heard, heard], axis=1), np.full(len(trials), loop.NO_CHANGE)
+    if (changes := trials.changes) is not None:
+        first = np.stack([changes.first_actions, changes.first_objects], axis=-1)
+        later = np.stack([changes.later_actions, changes.later_objects], axis=-1)
+        words, delays = np.stack([first, later], axis=1), changes.delays
+    return loop.TrialArrays(
+        action=trials.actions,
+        object=trials.objects,
+        alpha=trials.alpha,
+        bearing=np.reshape(bearings, (-1, c.N_OBJECTS)),
+        distance=np.sqrt(x * x + y * y),
+        heard=words,
+        delay=delays,
+    )
+
+
+def _empty_outcomes(n_genotypes: int, n_trials: int) -> loop.Outcomes:
+    shape = (n_genotypes, n_trials)
+    floats = [np.empty(shape) for _ in range(3)]
+    return loop.Outcomes(*floats, np.empty(shape, np.bool_), np.empty(shape, np.int64))
+
+
+def _parts(n: int, threads: int) -> list[slice]:
+    """Share out n genotypes in runs of nearly equal length."""
+    bounds = np.linspace(0, n, min(threads, max(n, 1)) + 1).astype(int)
+    return [slice(first, last) for first, last in pairwise(bounds)]
+
+
+def _record_of(trial: Trials, readings: Readings, rows: NDArray, scores: TrialScores) -> TrialRecord:
+    """A record from the kernel's rows [K, RECORD_COLUMNS]."""
+    angles = np.radians(rows[:, loop.RECORD_BEARING : loop.RECORD_BEARING + 3])
+    distances = rows[:, loop.RECORD_DISTANCE : loop.RECORD_DISTANCE + 3]
+    discs = np.stack([distances * np.cos(angles), distances * np.sin(angles)], axis=-1)
+    beta = np.concatenate([[c.BETA_MAX], rows[:, loop.RECORD_BETA]])
+    sides = rows[:, loop.RECORD_SIDE : loop.RECORD_SIDE + 3].astype(np.int8)
+    return TrialRecord(
+        instruction=trial.instructions[0],
+        readings=readings,
+        alpha=np.concatenate([trial.alpha, rows[:, loop.RECORD_ALPHA]]),
+        beta=beta,
+        discs=np.concatenate([trial.discs, discs]),
+        contact=np.concatenate([np.zeros((1, c.N_OBJECTS), np.int8), sides]),
+        inputs=_inputs_of(trial, rows, beta),
+        states=rows[:, loop.RECORD_STATE : loop.RECORD_STATE + c.N_INTER].copy(),
+        turns=np.stack([rows[:, loop.RECORD_TURN], np.diff(beta)], axis=-1),
+        scores=scores,
+    )
+
+
+def _inputs_of(trial: Trials, rows: NDArray, beta: NDArray) -> NDArray[np.float64]:
+    """I1 to I18 of every step, [K, 18], as spec section 4 numbers them."""
+    touch = np.concatenate([[0], rows[:-1, loop.RECORD_TOUCH].astype(int)])
+    camera = rows[:, loop.RECORD_CAMERA].astype(int)
+    heard = _arrays_of(trial).heard[0][rows[:, loop.RECORD_CHANGED].astype(int)]  # [K, 2]
+    return np.concatenate(
+        [
+            touch[:, np.newaxis] >> np.arange(2) & 1,
+            camera[:, np.newaxis] >> np.arange(9) & 1,
+            beta[:-1, np.newaxis] / c.BETA_MAX,
+            WORD_CODES[heard[:, 1]],
+            WORD_CODES[3 + heard[:, 0]],
+        ],
+        axis=1,
+    )
