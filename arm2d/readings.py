@@ -11,6 +11,7 @@ from itertools import pairwise
 from math import degrees
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
+TURN_LATTICE = 2**44
 # Turn of a joint per step, half-width of "on target", angle of a full MOVE [deg].
 TURN_SETS = {"degrees": (2.9, 4.6, 34.4), "radians": (degrees(0.05), degrees(0.08), degrees(0.6))}
 
@@ -119,8 +120,11 @@ class Readings:
 
     @property
     def turn_size(self) -> float:
-        """Turn of a joint per control step [deg]."""
-        return TURN_SETS[self.turn][0]
+        """Turn of a joint per control step [deg], to the nearest 2**-44 degrees.
+
+        Starting from 90, every sum of such turns is exact, so beta has only some 64 values.
+        """
+        return round(TURN_SETS[self.turn][0] * TURN_LATTICE) / TURN_LATTICE
 
     @property
     def target_cone(self) -> float:

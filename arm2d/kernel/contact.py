@@ -4,23 +4,32 @@ A disc is followed in S1's frame (x along S1, J1 at the origin), in which S2 tur
 """
 
 from math import sqrt
+from typing import Final
 
 from numba import njit
 
 from arm2d.arithmetic import bearing, sin_cos
-from arm2d.constants import PENETRATION_TOLERANCE, S1_LENGTH, S2_LENGTH, SUB_STEPS, TOUCH_TOLERANCE
+from arm2d.constants import (
+    N_OBJECTS,
+    PENETRATION_TOLERANCE,
+    S1_LENGTH,
+    S2_LENGTH,
+    SUB_STEPS,
+    TOUCH_TOLERANCE,
+)
 from arm2d.kernel.lanes import (
     ALPHA,
     BEARING,
+    BEND,
     BETA,
     COLLIDED,
     DISTANCE,
     HIGH,
     LEFT,
+    LIMIT,
     LOW,
     N_LANES,
-    NEAREST,
-    NEXT_BETA,
+    NEAR,
     NONE,
     RIGHT,
     SIDE,
@@ -31,55 +40,51 @@ from arm2d.kernel.lanes import (
     TURN,
 )
 
+# Bearing of S2's tip seen along S1, at its largest: S2 bent by 90 degrees, atan(50 / 100) [deg].
+LARGEST_TIP_OFFSET: Final = 26.6
+
 
 @njit(cache=True, error_model="numpy")
-def move_and_touch(s, n, lanes, world, objects):
-    """Bend S2 and resolve every disc it may meet; a motionless arm changes nothing."""
+def touch_discs(s, n, lanes, world, objects):
+    """Resolve the discs of the lanes marked in NEAR; a motionless arm changes nothing."""
     for i in range(lanes):
-        before = n[BETA + i]
-        direction = n[NEXT_BETA + i]
-        after = world.next_beta[3 * before + direction]
-        n[BETA + i] = after
-        if s[NEAREST + i] < world.reach[before] and (after != before or s[TURN + i] != 0.0):
-            _touch(s, n, i, before, direction, world, objects)
+        if n[NEAR + i] == 0:
+            continue
+        target = objects[n[TRIAL + i]]
+        touch, collided = 0, 0
+        left_of = LARGEST_TIP_OFFSET + world.side_reach
+        for disc in range(N_OBJECTS):
+            at = disc * N_LANES + i
+            if -world.side_reach < s[BEARING + at] - s[ALPHA + i] < left_of:
+                _resolve(s, n, i, at, world)
+            else:
+                n[SIDE + at] = NONE
+            touch |= n[SIDE + at]
+            if disc != target and n[SIDE + at] != NONE:
+                collided = 1
+        n[TOUCH + i] = touch
+        n[COLLIDED + i] = collided
+        n[TARGET_SIDE + i] = n[SIDE + target * N_LANES + i]
+        s[TARGET + i] = s[BEARING + target * N_LANES + i]
 
 
 @njit(cache=True, error_model="numpy")
-def _touch(s, n, i, before, direction, world, objects):
-    """Resolve the discs of lane i, whose S2 turned from grid point `before` in `direction`."""
-    target = objects[n[TRIAL + i]]
-    right_of, left_of = -world.side_reach, world.tip_offset[before] + world.side_reach
-    touch, collided = 0, 0
-    for disc in range(3):
-        at = disc * N_LANES + i
-        offset = s[BEARING + at] - s[ALPHA + i]
-        near = right_of < offset < left_of and s[DISTANCE + at] < world.reach[before]
-        if near:
-            _resolve(s, n, i, at, world.sub_step_sin_cos[before, direction], world)
-        else:
-            n[SIDE + at] = NONE
-        touch |= n[SIDE + at]
-        if disc != target and n[SIDE + at] != NONE:
-            collided = 1
-    n[TOUCH + i] = touch
-    n[COLLIDED + i] = collided
-    n[TARGET_SIDE + i] = n[SIDE + target * N_LANES + i]
-    s[TARGET + i] = s[BEARING + target * N_LANES + i]
-
-
-@njit(cache=True, error_model="numpy")
-def _resolve(s, n, i, at, sin_cos_beta, world):
+def _resolve(s, n, i, at, world):
     """Move one disc with or out of S2's way through the sub-steps of this step's motion."""
     radius = world.radius
-    before = s[ALPHA + i] - s[TURN + i]
-    sine, cosine = sin_cos(s[BEARING + at] - before)
+    sine, cosine = sin_cos(s[BEARING + at] - (s[ALPHA + i] - s[TURN + i]))
     x, y = s[DISTANCE + at] * cosine, s[DISTANCE + at] * sine
+    sin_beta, cos_beta = sin_cos(s[BETA + i] - s[BEND + i])
     # In S1's frame a resting disc turns the other way.
-    sine, cosine = sin_cos(-s[TURN + i] / SUB_STEPS)
+    sine, cosine = _sub_step(-s[TURN + i], world)
+    sin_bend, cos_bend = _sub_step(s[BEND + i], world)
     side, moved = n[SIDE + at], False
-    u0, v0 = _to_s2(x, y, sin_cos_beta[0, 0], sin_cos_beta[0, 1])
-    for k in range(1, SUB_STEPS + 1):
-        sin_beta, cos_beta = sin_cos_beta[k, 0], sin_cos_beta[k, 1]
+    u0, v0 = _to_s2(x, y, sin_beta, cos_beta)
+    for _ in range(SUB_STEPS):
+        sin_beta, cos_beta = (
+            sin_beta * cos_bend + cos_beta * sin_bend,
+            cos_beta * cos_bend - sin_beta * sin_bend,
+        )
         x, y = x * cosine - y * sine, x * sine + y * cosine
         u, v = _to_s2(x, y, sin_beta, cos_beta)
         beyond = _beyond(u)
@@ -116,8 +121,31 @@ def place_disc(s, at, i, bearing_deg, distance, world):
     )
     s[LOW + at] = bearing_deg - half
     s[HIGH + at] = bearing_deg + half
-    nearest = min(s[DISTANCE + i], s[DISTANCE + N_LANES + i])
-    s[NEAREST + i] = min(nearest, s[DISTANCE + 2 * N_LANES + i])
+    nearest = min(s[DISTANCE + i], s[DISTANCE + N_LANES + i], s[DISTANCE + 2 * N_LANES + i])
+    s[LIMIT + i] = _largest_beta_that_reaches(nearest - world.radius - 1e-3) + world.turn
+
+
+@njit(cache=True, error_model="numpy")
+def _largest_beta_that_reaches(distance):
+    """The beta [deg] at which S2's tip is so far from J1 [cm]; above 90 if it always is, 0 if never."""
+    cosine = (distance * distance - S1_LENGTH * S1_LENGTH - S2_LENGTH * S2_LENGTH) / (
+        2.0 * S1_LENGTH * S2_LENGTH
+    )
+    if cosine >= 1.0:
+        return 0.0
+    return 180.0 if cosine <= 0.0 else bearing(cosine, sqrt(1.0 - cosine * cosine))
+
+
+@njit(cache=True, error_model="numpy")
+def _sub_step(turn, world):
+    """(sine, cosine) of one sub-step of a joint's turn [deg]; a turn is full unless a bound cut it."""
+    if turn == 0.0:
+        return 0.0, 1.0
+    if turn == world.turn:
+        return world.quarter_sine, world.quarter_cosine
+    if turn == -world.turn:
+        return -world.quarter_sine, world.quarter_cosine
+    return sin_cos(turn / SUB_STEPS)
 
 
 @njit(cache=True, error_model="numpy")

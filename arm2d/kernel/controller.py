@@ -8,6 +8,7 @@ from arm2d.constants import (
     ALPHA_MAX,
     ALPHA_MIN,
     BETA_MAX,
+    BETA_MIN,
     DT,
     MIDDLE_SECTOR_HALF_WIDTH,
     N_INPUTS,
@@ -16,19 +17,23 @@ from arm2d.constants import (
 )
 from arm2d.kernel.lanes import (
     ALPHA,
+    BEND,
     BETA,
     CAMERA,
     DRIVE,
     HIGH,
+    LIMIT,
     LOW,
     N_LANES,
-    NEXT_BETA,
+    NEAR,
+    ROW,
     TOUCH,
     TURN,
     WORDS,
     Y,
     Z,
 )
+from arm2d.kernel.world import BETA_KEYS_PER_DEGREE
 
 # Places of the inputs in spec section 4, from 0.
 FIRST_CAMERA_INPUT = 2
@@ -54,12 +59,12 @@ def tabulate_drives(network, world, codes, touch, camera, bend, words):
 
     Args:
         network: [84] parameters in the order of the genes.
-        world: The readings' world; its grid of beta is used.
+        world: The readings' world, which knows the values of beta.
         codes: [7, 3], the words' codes: three objects, then four actions.
-        touch: [4, 3] by the code of I1, I2.
-        camera: [512, 3] by the code of I3..I11.
-        bend: [B, 3] by the index of beta.
-        words: [4, 3, 3] by action and object.
+        touch: [4, 4] by the code of I1, I2; the last column of each table stays 0.
+        camera: [512, 4] by the code of I3..I11.
+        bend: [901, 4] by the key of beta.
+        words: [4, 3, 4] by action and object.
     """
     bias, gain = network[INPUT_BIAS], network[GAIN]
     off, on = sigmoid(bias), sigmoid(gain + bias)
@@ -72,8 +77,8 @@ def tabulate_drives(network, world, codes, touch, camera, bend, words):
             for code in range(8):
                 first = FIRST_CAMERA_INPUT + 3 * sector
                 sectors[sector, code, j] = _sum_of_bits(weights, first, 3, code, off, on, j)
-        for index in range(len(world.beta)):
-            bend[index, j] = weights[BEND_INPUT, j] * sigmoid(gain * (world.beta[index] / BETA_MAX) + bias)
+        for beta in world.beta:
+            bend[beta_key(beta), j] = weights[BEND_INPUT, j] * sigmoid(gain * (beta / BETA_MAX) + bias)
         for action in range(4):
             for object_ in range(3):
                 total = 0.0
@@ -118,13 +123,30 @@ def sense_camera(s, n, lanes, right, left):
 
 
 @njit(cache=True, error_model="numpy")
+def beta_key(beta):
+    """The row of a value of beta [deg] in the table `bend`."""
+    return np.uint64(beta * BETA_KEYS_PER_DEGREE + 0.5)
+
+
+@njit(cache=True, error_model="numpy")
 def gather_drives(s, n, lanes, touch, camera, bend):
-    """Add up what words, touch, camera and bend drive (eq. 1 and the first sum of eq. 2)."""
+    """Add up what words, touch, camera and bend drive (eq. 1 and the first sum of eq. 2).
+
+    Rows of four are read, added and written as one vector.
+    """
     for i in range(lanes):
-        t, code, b = n[TOUCH + i], n[CAMERA + i], n[BETA + i]
-        for j in range(N_INTER):
-            words = s[WORDS + j * N_LANES + i]
-            s[DRIVE + j * N_LANES + i] = words + touch[t, j] + camera[code, j] + bend[b, j]
+        t, code, b = np.uint64(n[TOUCH + i]), np.uint64(n[CAMERA + i]), beta_key(s[BETA + i])
+        row = ROW * i
+        drive0 = s[WORDS + row] + touch[t, 0] + camera[code, 0] + bend[b, 0]
+        drive1 = s[WORDS + row + 1] + touch[t, 1] + camera[code, 1] + bend[b, 1]
+        drive2 = s[WORDS + row + 2] + touch[t, 2] + camera[code, 2] + bend[b, 2]
+        drive3 = s[WORDS + row + 3] + touch[t, 3] + camera[code, 3] + bend[b, 3]
+        s[DRIVE + row], s[DRIVE + row + 1], s[DRIVE + row + 2], s[DRIVE + row + 3] = (
+            drive0,
+            drive1,
+            drive2,
+            drive3,
+        )
 
 
 @njit(cache=True, error_model="numpy")
@@ -138,9 +160,9 @@ def think(s, lanes, network):
     for i in range(lanes):
         y0, y1, y2 = s[Y + i], s[Y + N_LANES + i], s[Y + 2 * N_LANES + i]
         z0, z1, z2 = s[Z + i], s[Z + N_LANES + i], s[Z + 2 * N_LANES + i]
-        total0 = s[DRIVE + i] + (w00 * z0 + w10 * z1 + w20 * z2)
-        total1 = s[DRIVE + N_LANES + i] + (w01 * z0 + w11 * z1 + w21 * z2)
-        total2 = s[DRIVE + 2 * N_LANES + i] + (w02 * z0 + w12 * z1 + w22 * z2)
+        total0 = s[DRIVE + ROW * i] + (w00 * z0 + w10 * z1 + w20 * z2)
+        total1 = s[DRIVE + ROW * i + 1] + (w01 * z0 + w11 * z1 + w21 * z2)
+        total2 = s[DRIVE + ROW * i + 2] + (w02 * z0 + w12 * z1 + w22 * z2)
         y0 += rate0 * (total0 - y0)
         y1 += rate1 * (total1 - y1)
         y2 += rate2 * (total2 - y2)
@@ -154,29 +176,44 @@ def think(s, lanes, network):
 def turn(s, n, lanes, network, turn_size):
     """Turn the joints as the motor neurons say (eq. 3).
 
-    Only signs matter: f > 0.5 where the neuron's input is positive. NEXT_BETA receives the direction
-    of S2's turn (0, 1, 2), which the contact stage looks up on the grid of beta.
+    Only signs matter: f > 0.5 where the neuron's input is positive.
+
+    Returns:
+        In how many lanes S2 may meet a disc on its way; they are marked in NEAR.
     """
     bias = network[MOTOR_BIAS]
     w = network[MOTOR : MOTOR + 12]
     go1_0, way1_0, go2_0, way2_0 = w[0], w[1], w[2], w[3]
     go1_1, way1_1, go2_1, way2_1 = w[4], w[5], w[6], w[7]
     go1_2, way1_2, go2_2, way2_2 = w[8], w[9], w[10], w[11]
+    near = 0
     for i in range(lanes):
         z0, z1, z2 = s[Z + i], s[Z + N_LANES + i], s[Z + 2 * N_LANES + i]
         go1 = go1_0 * z0 + go1_1 * z1 + go1_2 * z2 + bias
         way1 = way1_0 * z0 + way1_1 * z1 + way1_2 * z2 + bias
         go2 = go2_0 * z0 + go2_1 * z1 + go2_2 * z2 + bias
         way2 = way2_0 * z0 + way2_1 * z1 + way2_2 * z2 + bias
-        step = turn_size if way1 < 0.0 else 0.0
-        step = -turn_size if way1 > 0.0 else step
-        step = step if go1 > 0.0 else 0.0
-        before = s[ALPHA + i]
-        after = before + step
+        turn1 = turn_size if way1 < 0.0 else 0.0
+        turn1 = -turn_size if way1 > 0.0 else turn1
+        turn1 = turn1 if go1 > 0.0 else 0.0
+        alpha = s[ALPHA + i]
+        after = alpha + turn1
         after = after if after > ALPHA_MIN else ALPHA_MIN
         after = after if after < ALPHA_MAX else ALPHA_MAX
+        turned = after - alpha
         s[ALPHA + i] = after
-        s[TURN + i] = after - before
-        direction = 2 if way2 < 0.0 else 1
-        direction = 0 if way2 > 0.0 else direction
-        n[NEXT_BETA + i] = direction if go2 > 0.0 else 1
+        s[TURN + i] = turned
+        turn2 = turn_size if way2 < 0.0 else 0.0
+        turn2 = -turn_size if way2 > 0.0 else turn2
+        turn2 = turn2 if go2 > 0.0 else 0.0
+        beta = s[BETA + i]
+        after = beta + turn2
+        after = after if after > BETA_MIN else BETA_MIN
+        after = after if after < BETA_MAX else BETA_MAX
+        bent = after - beta
+        s[BETA + i] = after
+        s[BEND + i] = bent
+        may_meet = 1 if (beta < s[LIMIT + i]) & ((turned != 0.0) | (bent != 0.0)) else 0
+        n[NEAR + i] = may_meet
+        near += may_meet
+    return near

@@ -7,9 +7,9 @@ from numba import njit
 from numpy.typing import NDArray
 
 from arm2d.arithmetic import sigmoid
-from arm2d.constants import N_INTER, N_OBJECTS, VIEW_HALF_WIDTH
+from arm2d.constants import BETA_MAX, N_INTER, N_OBJECTS, VIEW_HALF_WIDTH
 from arm2d.kernel import lanes as at
-from arm2d.kernel.contact import move_and_touch, place_disc
+from arm2d.kernel.contact import place_disc, touch_discs
 from arm2d.kernel.controller import (
     INTER_BIAS,
     N_CAMERA_CODES,
@@ -27,6 +27,7 @@ from arm2d.kernel.scores import (
     score_step,
     set_criterion,
 )
+from arm2d.kernel.world import N_BETA_KEYS
 
 
 class TrialArrays(NamedTuple):
@@ -91,8 +92,8 @@ def run_population(networks, trials, world, codes, outcomes, recording):
     """
     s = np.zeros(N_FLOAT_FIELDS * N_LANES)
     n = np.zeros(N_INTEGER_FIELDS * N_LANES, np.int64)
-    touch, camera = np.empty((4, N_INTER)), np.empty((N_CAMERA_CODES, N_INTER))
-    bend, words = np.empty((len(world.beta), N_INTER)), np.empty((4, N_OBJECTS, N_INTER))
+    touch, camera = np.zeros((4, at.ROW)), np.zeros((N_CAMERA_CODES, at.ROW))
+    bend, words = np.zeros((N_BETA_KEYS, at.ROW)), np.zeros((4, N_OBJECTS, at.ROW))
     for p in range(len(networks)):
         tabulate_drives(networks[p], world, codes, touch, camera, bend, words)
         _run_network(p, networks[p], trials, world, s, n, touch, camera, bend, words, outcomes, recording)
@@ -113,12 +114,12 @@ def _run_network(p, network, trials, world, s, n, touch, camera, bend, words, ou
         sense_camera(s, n, lanes, world.white_right, world.white_left)
         gather_drives(s, n, lanes, touch, camera, bend)
         think(s, lanes, network)
-        turn(s, n, lanes, network, world.turn)
-        move_and_touch(s, n, active, world, trials.object)
+        if turn(s, n, lanes, network, world.turn) > 0:
+            touch_discs(s, n, active, world, trials.object)
         if steps < len(recording):
-            _record(s, n, world, recording[steps])
+            _record(s, n, recording[steps])
         if world.best_stretch:
-            remember_stretch(s, n, active, world)
+            remember_stretch(s, active)
         if changing:
             _change_words(s, n, active, trials, words)
         steps += 1
@@ -143,7 +144,7 @@ def _start(s, n, i, trial, network, trials, world, words):
     """Put lane i at the start of a trial."""
     n[at.TRIAL + i] = trial
     s[at.ALPHA + i] = trials.alpha[trial]
-    n[at.BETA + i] = 0  # the grid of beta begins with the starting angle
+    s[at.BETA + i] = BETA_MAX
     for j in range(N_INTER):
         s[at.Y + j * N_LANES + i] = 0.0
         s[at.Z + j * N_LANES + i] = sigmoid(0.0 + network[INTER_BIAS + j])
@@ -169,7 +170,7 @@ def _start(s, n, i, trial, network, trials, world, words):
 def _hear(s, i, instruction, words):
     """Let lane i hear an instruction (action, object)."""
     for j in range(N_INTER):
-        s[at.WORDS + j * N_LANES + i] = words[instruction[0], instruction[1], j]
+        s[at.WORDS + at.ROW * i + j] = words[instruction[0], instruction[1], j]
 
 
 @njit(cache=True, error_model="numpy")
@@ -203,17 +204,19 @@ def _finish(s, n, i, p, trials, world, outcomes):
 @njit(cache=True, error_model="numpy")
 def _copy_lane(s, n, source, target):
     """Move a trial to another lane."""
-    for field in range(N_FLOAT_FIELDS):
+    for field in range(at.WORDS // N_LANES):
         s[field * N_LANES + target] = s[field * N_LANES + source]
+    for j in range(at.ROW):
+        s[at.WORDS + at.ROW * target + j] = s[at.WORDS + at.ROW * source + j]
     for field in range(N_INTEGER_FIELDS):
         n[field * N_LANES + target] = n[field * N_LANES + source]
 
 
 @njit(cache=True, error_model="numpy")
-def _record(s, n, world, row):
+def _record(s, n, row):
     """Write down lane 0 after a step, before the words may change."""
     row[RECORD_ALPHA] = s[at.ALPHA]
-    row[RECORD_BETA] = world.beta[n[at.BETA]]
+    row[RECORD_BETA] = s[at.BETA]
     row[RECORD_TURN] = s[at.TURN]
     row[RECORD_CAMERA] = n[at.CAMERA]
     row[RECORD_TOUCH] = n[at.TOUCH]

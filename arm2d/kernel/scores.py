@@ -105,11 +105,11 @@ def score_step(s, n, lanes, keep):
 
 
 @njit(cache=True, error_model="numpy")
-def remember_stretch(s, n, lanes, world):
+def remember_stretch(s, lanes):
     """Keep the largest 1 - beta / 90 with the target in view; needed by one reading only."""
     for i in range(lanes):
         if offset_from_target(s, i) <= VIEW_HALF_WIDTH:
-            s[STRETCH + i] = max(s[STRETCH + i], 1.0 - world.beta[n[BETA + i]] / BETA_MAX)
+            s[STRETCH + i] = max(s[STRETCH + i], 1.0 - s[BETA + i] / BETA_MAX)
 
 
 @njit(cache=True, error_model="numpy")
@@ -141,7 +141,7 @@ def final_scores(s, n, i, world, action):
         if world.best_stretch:
             f3 = s[STRETCH + i]
         elif in_view:
-            f3 = 1.0 - world.beta[n[BETA + i]] / BETA_MAX
+            f3 = 1.0 - s[BETA + i] / BETA_MAX
     success = f1 == 1.0 and f2 == 1.0
     if world.strict_success and action in (TOUCH, MOVE):
         success = success and f3 > 0.99

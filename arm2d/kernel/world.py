@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from math import sqrt
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,14 +12,13 @@ from arm2d import constants as c
 from arm2d.arithmetic import sin_cos
 from arm2d.readings import Readings
 
-# Beta lives on this lattice [deg]: a turn and its reverse cancel exactly.
-BETA_DIGITS = 9
+# Values of beta are told apart by their whole tenths of a degree.
+BETA_KEYS_PER_DEGREE: Final = 10.0
+N_BETA_KEYS: Final = 901
 
 
 class World(NamedTuple):
     """The world of one record of readings.
-
-    B grid points of beta; directions D = 0 (unbend), 1 (stay), 2 (bend).
 
     Attributes:
         turn: Turn of a joint per step [deg].
@@ -36,14 +34,11 @@ class World(NamedTuple):
         whole_penalty: Whether P1 scales all of F1.
         best_stretch: Whether F3 is taken at its best step.
         strict_success: Whether success needs F3 > 0.99 too.
-        beta: [B] in [deg].
-        next_beta: [B * 3], index after a turn in direction D.
-        sub_step_sin_cos: [B, 3, 5, 2], sine and cosine of beta before the turn in direction D and
-            after each of its sub-steps.
-        reach: [B], how far from J1 a disc's centre may be and still meet S2 in a turn from here [cm].
+        beta: [B], every value that beta can take in a trial [deg].
+        quarter_sine: Sine and
+        quarter_cosine: cosine of a sub-step of a full turn.
         side_reach: How far to S1's right, or beyond S2's tip to its left, a disc's centre may be and
             still meet S2 in one step [deg].
-        tip_offset: [B], bearing of S2's tip minus alpha, before the turn [deg].
     """
 
     turn: float
@@ -60,23 +55,19 @@ class World(NamedTuple):
     best_stretch: bool
     strict_success: bool
     beta: NDArray[np.float64]
-    next_beta: NDArray[np.int64]
-    sub_step_sin_cos: NDArray[np.float64]
-    reach: NDArray[np.float64]
+    quarter_sine: float
+    quarter_cosine: float
     side_reach: float
-    tip_offset: NDArray[np.float64]
 
 
 @lru_cache(maxsize=64)
 def world_of(readings: Readings) -> World:
     """The world that these readings describe."""
-    beta, next_beta = _beta_grid(readings.turn_size)
     near = readings.bound_vision == "near"
-    tips = np.array([_tip(each) for each in beta])
+    sine, cosine = sin_cos(readings.turn_size / c.SUB_STEPS)
     closest_centre = c.S1_LENGTH - readings.object_radius
     # asin(rho / distance) <= 1.6 rho / distance for these ratios; one step's turns of both joints besides.
     side_reach = np.degrees(1.6 * readings.object_radius / closest_centre) + 3.0 * readings.turn_size
-    unbent = next_beta.reshape(-1, 3)[:, 0]
     return World(
         turn=readings.turn_size,
         radius=readings.object_radius,
@@ -91,46 +82,20 @@ def world_of(readings: Readings) -> World:
         whole_penalty=readings.collision_penalty == "whole",
         best_stretch=readings.f3_time == "best",
         strict_success=readings.success == "f1_f2_f3",
-        beta=beta,
-        next_beta=next_beta,
-        sub_step_sin_cos=_sub_steps(beta, next_beta),
-        reach=tips[unbent, 0] + readings.object_radius + 1e-3,
+        beta=_reachable_betas(readings.turn_size),
+        quarter_sine=sine,
+        quarter_cosine=cosine,
         side_reach=float(side_reach),
-        tip_offset=tips[:, 1],
     )
 
 
-def turned_beta(beta: float, turn: float) -> float:
-    """Beta [deg] after a turn, clipped to its range and rounded to its lattice."""
-    return round(min(c.BETA_MAX, max(c.BETA_MIN, beta + turn)), BETA_DIGITS)
-
-
-def _beta_grid(turn: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """All values that beta can take from 90 degrees on, and where each turn leads."""
-    values, successors = [c.BETA_MAX], []
-    index = {c.BETA_MAX: 0}
+def _reachable_betas(turn: float) -> NDArray[np.float64]:
+    """All values that beta can take from 90 degrees on, [B]."""
+    values = [c.BETA_MAX]
     for value in values:  # grows while it is walked
-        for direction in (-1.0, 0.0, 1.0):
-            successor = turned_beta(value, direction * turn)
-            if successor not in index:
-                index[successor] = len(values)
+        for successor in (max(c.BETA_MIN, value - turn), min(c.BETA_MAX, value + turn)):
+            if successor not in values:
                 values.append(successor)
-            successors.append(index[successor])
-    return np.array(values), np.array(successors)
-
-
-def _sub_steps(beta: NDArray[np.float64], next_beta: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Sine and cosine of beta through each turn; [B, 3, 5, 2]."""
-    table = np.empty((len(beta), 3, c.SUB_STEPS + 1, 2))
-    for start, (before, successors) in enumerate(zip(beta, next_beta.reshape(-1, 3), strict=True)):
-        for direction, after in enumerate(beta[successors]):
-            for k in range(c.SUB_STEPS + 1):
-                table[start, direction, k] = sin_cos(before + (after - before) * k / c.SUB_STEPS)
-    return table
-
-
-def _tip(beta: float) -> tuple[float, float]:
-    """Distance [cm] of S2's tip from J1 and its bearing minus alpha [deg]."""
-    sine, cosine = sin_cos(beta)
-    along, across = c.S1_LENGTH + c.S2_LENGTH * cosine, c.S2_LENGTH * sine
-    return sqrt(along * along + across * across), float(np.degrees(np.arctan2(across, along)))
+    keys = {int(value * BETA_KEYS_PER_DEGREE + 0.5) for value in values}
+    assert len(keys) == len(values), "two values of beta share a key"  # noqa: S101 - our own mistake
+    return np.array(values)
