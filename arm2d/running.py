@@ -16,7 +16,7 @@ from arm2d.arithmetic import bearing
 from arm2d.controller import check_genotypes, decode_flat
 from arm2d.instructions import ACTION_CODES, OBJECT_CODES
 from arm2d.kernel import loop
-from arm2d.kernel.world import world_of
+from arm2d.kernel.world import reachable_betas, world_of
 from arm2d.readings import Readings
 from arm2d.trials import TrialRecord, Trials, TrialScores
 
@@ -51,7 +51,15 @@ def run_trials(
 
     def run(part: slice) -> None:
         own = loop.Outcomes(*(each[part] for each in outcomes))
-        loop.run_population(networks[part], arrays, world_of(readings), WORD_CODES, own, NO_RECORDING)
+        loop.run_population(
+            networks[part],
+            arrays,
+            world_of(readings),
+            reachable_betas(readings),
+            WORD_CODES,
+            own,
+            NO_RECORDING,
+        )
 
     parts = _parts(len(genes), threads)
     if len(parts) == 1:
@@ -83,7 +91,9 @@ def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None =
     outcomes = _empty_outcomes(1, 1)
     rows = np.empty((c.MAX_STEPS, loop.RECORD_COLUMNS))
     networks = decode_flat(genes, readings)
-    loop.run_population(networks, _arrays_of(trial), world_of(readings), WORD_CODES, outcomes, rows)
+    loop.run_population(
+        networks, _arrays_of(trial), world_of(readings), reachable_betas(readings), WORD_CODES, outcomes, rows
+    )
     scores = TrialScores(*outcomes)
     return _record_of(trial, readings, rows[: scores.steps[0, 0]], scores)
 

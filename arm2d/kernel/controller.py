@@ -29,7 +29,6 @@ from arm2d.kernel.lanes import (
     ROW,
     TOUCH,
     TURN,
-    WORDS,
     Y,
     Z,
 )
@@ -54,12 +53,12 @@ N_CAMERA_CODES = 512
 
 
 @njit(cache=True, error_model="numpy", inline="never")
-def tabulate_drives(network, world, codes, touch, camera, bend, words):
+def tabulate_drives(network, betas, codes, touch, camera, bend, words):
     """Fill in what each state of each kind of input adds to the three inter-neurons.
 
     Args:
         network: [84] parameters in the order of the genes.
-        world: The readings' world, which knows the values of beta.
+        betas: [B], the values of beta [deg].
         codes: [7, 3], the words' codes: three objects, then four actions.
         touch: [4, 4] by the code of I1, I2; the last column of each table stays 0.
         camera: [512, 4] by the code of I3..I11.
@@ -77,7 +76,7 @@ def tabulate_drives(network, world, codes, touch, camera, bend, words):
             for code in range(8):
                 first = FIRST_CAMERA_INPUT + 3 * sector
                 sectors[sector, code, j] = _sum_of_bits(weights, first, 3, code, off, on, j)
-        for beta in world.beta:
+        for beta in betas:
             bend[beta_key(beta), j] = weights[BEND_INPUT, j] * sigmoid(gain * (beta / BETA_MAX) + bias)
         for action in range(4):
             for object_ in range(3):
@@ -129,24 +128,18 @@ def beta_key(beta):
 
 
 @njit(cache=True, error_model="numpy")
-def gather_drives(s, n, lanes, touch, camera, bend):
+def gather_drives(s, n, d, lanes, touch, camera, bend):
     """Add up what words, touch, camera and bend drive (eq. 1 and the first sum of eq. 2).
 
-    Rows of four are read, added and written as one vector.
+    Rows of the tables are read and added as vectors.
     """
     for i in range(lanes):
         t, code, b = np.uint64(n[TOUCH + i]), np.uint64(n[CAMERA + i]), beta_key(s[BETA + i])
         row = ROW * i
-        drive0 = s[WORDS + row] + touch[t, 0] + camera[code, 0] + bend[b, 0]
-        drive1 = s[WORDS + row + 1] + touch[t, 1] + camera[code, 1] + bend[b, 1]
-        drive2 = s[WORDS + row + 2] + touch[t, 2] + camera[code, 2] + bend[b, 2]
-        drive3 = s[WORDS + row + 3] + touch[t, 3] + camera[code, 3] + bend[b, 3]
-        s[DRIVE + row], s[DRIVE + row + 1], s[DRIVE + row + 2], s[DRIVE + row + 3] = (
-            drive0,
-            drive1,
-            drive2,
-            drive3,
-        )
+        drive0 = d[row] + touch[t, 0] + camera[code, 0] + bend[b, 0]
+        drive1 = d[row + 1] + touch[t, 1] + camera[code, 1] + bend[b, 1]
+        drive2 = d[row + 2] + touch[t, 2] + camera[code, 2] + bend[b, 2]
+        s[DRIVE + i], s[DRIVE + N_LANES + i], s[DRIVE + 2 * N_LANES + i] = drive0, drive1, drive2
 
 
 @njit(cache=True, error_model="numpy")
@@ -160,9 +153,9 @@ def think(s, lanes, network):
     for i in range(lanes):
         y0, y1, y2 = s[Y + i], s[Y + N_LANES + i], s[Y + 2 * N_LANES + i]
         z0, z1, z2 = s[Z + i], s[Z + N_LANES + i], s[Z + 2 * N_LANES + i]
-        total0 = s[DRIVE + ROW * i] + (w00 * z0 + w10 * z1 + w20 * z2)
-        total1 = s[DRIVE + ROW * i + 1] + (w01 * z0 + w11 * z1 + w21 * z2)
-        total2 = s[DRIVE + ROW * i + 2] + (w02 * z0 + w12 * z1 + w22 * z2)
+        total0 = s[DRIVE + i] + (w00 * z0 + w10 * z1 + w20 * z2)
+        total1 = s[DRIVE + N_LANES + i] + (w01 * z0 + w11 * z1 + w21 * z2)
+        total2 = s[DRIVE + 2 * N_LANES + i] + (w02 * z0 + w12 * z1 + w22 * z2)
         y0 += rate0 * (total0 - y0)
         y1 += rate1 * (total1 - y1)
         y2 += rate2 * (total2 - y2)
@@ -182,10 +175,19 @@ def turn(s, n, lanes, network, turn_size):
         In how many lanes S2 may meet a disc on its way; they are marked in NEAR.
     """
     bias = network[MOTOR_BIAS]
-    w = network[MOTOR : MOTOR + 12]
-    go1_0, way1_0, go2_0, way2_0 = w[0], w[1], w[2], w[3]
-    go1_1, way1_1, go2_1, way2_1 = w[4], w[5], w[6], w[7]
-    go1_2, way1_2, go2_2, way2_2 = w[8], w[9], w[10], w[11]
+    go1_0, way1_0, go2_0, way2_0 = network[MOTOR], network[MOTOR + 1], network[MOTOR + 2], network[MOTOR + 3]
+    go1_1, way1_1, go2_1, way2_1 = (
+        network[MOTOR + 4],
+        network[MOTOR + 5],
+        network[MOTOR + 6],
+        network[MOTOR + 7],
+    )
+    go1_2, way1_2, go2_2, way2_2 = (
+        network[MOTOR + 8],
+        network[MOTOR + 9],
+        network[MOTOR + 10],
+        network[MOTOR + 11],
+    )
     near = 0
     for i in range(lanes):
         z0, z1, z2 = s[Z + i], s[Z + N_LANES + i], s[Z + 2 * N_LANES + i]

@@ -2,6 +2,7 @@
 
 Quantity F of lane i stands at `F + i` in the flat array of floats `s` or of integers `n`. Fields at
 constant distances in one array let LLVM see that they do not overlap, so loops over lanes vectorise.
+The drive of the words heard stands apart, in rows: `d[ROW * i]` and on.
 """
 
 from typing import Final
@@ -31,11 +32,11 @@ RUN: Final = 28 * N_LANES  # current run of good steps, or of turns [deg]
 BEST: Final = 29 * N_LANES  # largest run so far
 FIRST_OFFSET: Final = 30 * N_LANES  # d_i [deg]
 STRETCH: Final = 31 * N_LANES  # largest 1 - beta / 90 with the target in view
-# Four numbers for each lane, side by side: what words and all inputs drive in the three inter-neurons.
-WORDS: Final = 32 * N_LANES
-DRIVE: Final = 36 * N_LANES
+DRIVE: Final = 32 * N_LANES  # three fields: drive of all inputs on each inter-neuron
+N_FLOAT_FIELDS: Final = 35
+
+# Drives are looked up in rows of four: three inter-neurons and a 0, so that a row is one vector.
 ROW: Final = 4
-N_FLOAT_FIELDS: Final = 40
 
 # Fields of `n`.
 CAMERA: Final = 0 * N_LANES  # nine bits, I3 lowest

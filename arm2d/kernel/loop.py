@@ -79,51 +79,55 @@ RECORD_COLUMNS: Final = 18
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
-def run_population(networks, trials, world, codes, outcomes, recording):
+def run_population(networks, trials, world, betas, codes, outcomes, recording):
     """Run all trials with every network, one network after the other.
 
     Args:
         networks: [P, 84] parameters in the order of the genes.
         trials: `TrialArrays` of T trials.
         world: `World` of the readings.
+        betas: [B], the values that beta can take [deg].
         codes: [7, 3], the words' codes: three objects, then four actions.
         outcomes: `Outcomes` to be filled in.
         recording: [K, RECORD_COLUMNS] for a single trial of a single network, else [0, RECORD_COLUMNS].
     """
     s = np.zeros(N_FLOAT_FIELDS * N_LANES)
     n = np.zeros(N_INTEGER_FIELDS * N_LANES, np.int64)
+    d = np.zeros(at.ROW * N_LANES)
     touch, camera = np.zeros((4, at.ROW)), np.zeros((N_CAMERA_CODES, at.ROW))
     bend, words = np.zeros((N_BETA_KEYS, at.ROW)), np.zeros((4, N_OBJECTS, at.ROW))
     for p in range(len(networks)):
-        tabulate_drives(networks[p], world, codes, touch, camera, bend, words)
-        _run_network(p, networks[p], trials, world, s, n, touch, camera, bend, words, outcomes, recording)
+        tabulate_drives(networks[p], betas, codes, touch, camera, bend, words)
+        _run_network(p, networks[p], trials, world, s, n, d, touch, camera, bend, words, outcomes, recording)
 
 
 @njit(cache=True, error_model="numpy")
-def _run_network(p, network, trials, world, s, n, touch, camera, bend, words, outcomes, recording):
+def _run_network(p, network, trials, world, s, n, d, touch, camera, bend, words, outcomes, recording):
     """Run all trials with one network, N_LANES at a time."""
     n_trials = len(trials.action)
+    objects, keep, turn_size = trials.object, world.keep, world.turn
+    white_right, white_left = world.white_right, world.white_left
     active, waiting = 0, 0
     while active < N_LANES and waiting < n_trials:
-        _start(s, n, active, waiting, network, trials, world, words)
+        _start(s, n, d, active, waiting, network, trials, world, words)
         active, waiting = active + 1, waiting + 1
     changing = np.any(trials.delay != NO_CHANGE)
     steps = 0
     while active > 0:
         lanes = (active + BLOCK - 1) // BLOCK * BLOCK
-        sense_camera(s, n, lanes, world.white_right, world.white_left)
-        gather_drives(s, n, lanes, touch, camera, bend)
+        sense_camera(s, n, lanes, white_right, white_left)
+        gather_drives(s, n, d, lanes, touch, camera, bend)
         think(s, lanes, network)
-        if turn(s, n, lanes, network, world.turn) > 0:
-            touch_discs(s, n, active, world, trials.object)
+        if turn(s, n, lanes, network, turn_size) > 0:
+            touch_discs(s, n, active, world, objects)
         if steps < len(recording):
             _record(s, n, recording[steps])
         if world.best_stretch:
             remember_stretch(s, active)
         if changing:
-            _change_words(s, n, active, trials, words)
+            _change_words(s, n, d, active, trials, words)
         steps += 1
-        if score_step(s, n, lanes, world.keep) == 0:
+        if score_step(s, n, lanes, keep) == 0:
             continue
         i = 0
         while i < active:
@@ -132,15 +136,15 @@ def _run_network(p, network, trials, world, s, n, touch, camera, bend, words, ou
                 continue
             _finish(s, n, i, p, trials, world, outcomes)
             if waiting < n_trials:
-                _start(s, n, i, waiting, network, trials, world, words)
+                _start(s, n, d, i, waiting, network, trials, world, words)
                 waiting += 1
             else:
                 active -= 1
-                _copy_lane(s, n, active, i)
+                _copy_lane(s, n, d, active, i)
 
 
 @njit(cache=True, error_model="numpy")
-def _start(s, n, i, trial, network, trials, world, words):
+def _start(s, n, d, i, trial, network, trials, world, words):
     """Put lane i at the start of a trial."""
     n[at.TRIAL + i] = trial
     s[at.ALPHA + i] = trials.alpha[trial]
@@ -163,18 +167,18 @@ def _start(s, n, i, trial, network, trials, world, words):
     s[at.STRETCH + i] = 0.0
     n[at.WAIT + i] = at.NOT_SEEN
     set_criterion(s, n, i, trials.action[trial], world)
-    _hear(s, i, trials.heard[trial, 0], words)
+    _hear(d, i, trials.heard[trial, 0], words)
 
 
 @njit(cache=True, error_model="numpy")
-def _hear(s, i, instruction, words):
+def _hear(d, i, instruction, words):
     """Let lane i hear an instruction (action, object)."""
     for j in range(N_INTER):
-        s[at.WORDS + at.ROW * i + j] = words[instruction[0], instruction[1], j]
+        d[at.ROW * i + j] = words[instruction[0], instruction[1], j]
 
 
 @njit(cache=True, error_model="numpy")
-def _change_words(s, n, lanes, trials, words):
+def _change_words(s, n, d, lanes, trials, words):
     """Change the instruction where the drawn number of steps has passed since the target was seen."""
     for i in range(lanes):
         delay = trials.delay[n[at.TRIAL + i]]
@@ -186,7 +190,7 @@ def _change_words(s, n, lanes, trials, words):
             n[at.WAIT + i] = delay
         if n[at.WAIT + i] == 0:
             n[at.WAIT + i] = at.CHANGED
-            _hear(s, i, trials.heard[n[at.TRIAL + i], 1], words)
+            _hear(d, i, trials.heard[n[at.TRIAL + i], 1], words)
 
 
 @njit(cache=True, error_model="numpy")
@@ -202,12 +206,12 @@ def _finish(s, n, i, p, trials, world, outcomes):
 
 
 @njit(cache=True, error_model="numpy")
-def _copy_lane(s, n, source, target):
+def _copy_lane(s, n, d, source, target):
     """Move a trial to another lane."""
-    for field in range(at.WORDS // N_LANES):
+    for field in range(N_FLOAT_FIELDS):
         s[field * N_LANES + target] = s[field * N_LANES + source]
     for j in range(at.ROW):
-        s[at.WORDS + at.ROW * target + j] = s[at.WORDS + at.ROW * source + j]
+        d[at.ROW * target + j] = d[at.ROW * source + j]
     for field in range(N_INTEGER_FIELDS):
         n[field * N_LANES + target] = n[field * N_LANES + source]
 

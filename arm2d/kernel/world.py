@@ -18,7 +18,7 @@ N_BETA_KEYS: Final = 901
 
 
 class World(NamedTuple):
-    """The world of one record of readings.
+    """The world of one record of readings; numbers only, which Numba hands on at no cost.
 
     Attributes:
         turn: Turn of a joint per step [deg].
@@ -34,7 +34,6 @@ class World(NamedTuple):
         whole_penalty: Whether P1 scales all of F1.
         best_stretch: Whether F3 is taken at its best step.
         strict_success: Whether success needs F3 > 0.99 too.
-        beta: [B], every value that beta can take in a trial [deg].
         quarter_sine: Sine and
         quarter_cosine: cosine of a sub-step of a full turn.
         side_reach: How far to S1's right, or beyond S2's tip to its left, a disc's centre may be and
@@ -54,7 +53,6 @@ class World(NamedTuple):
     whole_penalty: bool
     best_stretch: bool
     strict_success: bool
-    beta: NDArray[np.float64]
     quarter_sine: float
     quarter_cosine: float
     side_reach: float
@@ -82,15 +80,16 @@ def world_of(readings: Readings) -> World:
         whole_penalty=readings.collision_penalty == "whole",
         best_stretch=readings.f3_time == "best",
         strict_success=readings.success == "f1_f2_f3",
-        beta=_reachable_betas(readings.turn_size),
         quarter_sine=sine,
         quarter_cosine=cosine,
         side_reach=float(side_reach),
     )
 
 
-def _reachable_betas(turn: float) -> NDArray[np.float64]:
-    """All values that beta can take from 90 degrees on, [B]."""
+@lru_cache(maxsize=64)
+def reachable_betas(readings: Readings) -> NDArray[np.float64]:
+    """All values that beta can take in a trial [deg], [B]."""
+    turn = readings.turn_size
     values = [c.BETA_MAX]
     for value in values:  # grows while it is walked
         for successor in (max(c.BETA_MIN, value - turn), min(c.BETA_MAX, value + turn)):
