@@ -9,10 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
 from arm2d.arithmetic import exp
+from arm2d.compiling import compiled
 from arm2d.constants import N_GENES, N_INPUTS, N_INTER, N_MOTORS
 from arm2d.readings import Readings
 
@@ -153,7 +153,7 @@ def _ranges(readings: Readings) -> tuple[NDArray[np.float64], NDArray[np.float64
     return ranges[:, 0], ranges[:, 1]
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _raise_ten_to(exponents):
     """Replace each x in [P, 3] by 10**x, with the same bits on every machine."""
     for p in range(exponents.shape[0]):

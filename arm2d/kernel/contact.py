@@ -6,9 +6,8 @@ A disc is followed in S1's frame (x along S1, J1 at the origin), in which S2 tur
 from math import sqrt
 from typing import Final
 
-from numba import njit
-
 from arm2d.arithmetic import bearing, sin_cos
+from arm2d.compiling import compiled
 from arm2d.constants import (
     N_OBJECTS,
     PENETRATION_TOLERANCE,
@@ -44,7 +43,7 @@ from arm2d.kernel.lanes import (
 LARGEST_TIP_OFFSET: Final = 26.6
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def touch_discs(s, n, lanes, world, objects):
     """Resolve the discs of the lanes marked in NEAR; a motionless arm changes nothing."""
     for i in range(lanes):
@@ -68,7 +67,7 @@ def touch_discs(s, n, lanes, world, objects):
         s[TARGET + i] = s[BEARING + target * N_LANES + i]
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _resolve(s, n, i, at, world):
     """Move one disc with or out of S2's way through the sub-steps of this step's motion."""
     radius = world.radius
@@ -106,12 +105,13 @@ def _resolve(s, n, i, at, world):
         u0, v0 = u, v
     n[SIDE + at] = side
     if moved:
-        place_disc(s, at, i, s[ALPHA + i] + bearing(x, y), sqrt(x * x + y * y), world)
+        place_disc(s, at, s[ALPHA + i] + bearing(x, y), sqrt(x * x + y * y), world)
+        set_limit(s, i, world)
 
 
-@njit(cache=True, error_model="numpy")
-def place_disc(s, at, i, bearing_deg, distance, world):
-    """Put a disc at a bearing [deg] and distance [cm] from J1; `at` is its lane and disc, i its lane."""
+@compiled(allocates=False)
+def place_disc(s, at, bearing_deg, distance, world):
+    """Put a disc, the one of lane and colour `at`, at a bearing [deg] and a distance [cm] from J1."""
     s[BEARING + at] = bearing_deg
     s[DISTANCE + at] = distance
     half = (
@@ -121,11 +121,16 @@ def place_disc(s, at, i, bearing_deg, distance, world):
     )
     s[LOW + at] = bearing_deg - half
     s[HIGH + at] = bearing_deg + half
+
+
+@compiled(allocates=False)
+def set_limit(s, i, world):
+    """Work out from which beta on S2 may meet a disc of lane i within a step."""
     nearest = min(s[DISTANCE + i], s[DISTANCE + N_LANES + i], s[DISTANCE + 2 * N_LANES + i])
     s[LIMIT + i] = _largest_beta_that_reaches(nearest - world.radius - 1e-3) + world.turn
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _largest_beta_that_reaches(distance):
     """The beta [deg] at which S2's tip is so far from J1 [cm]; above 90 if it always is, 0 if never."""
     cosine = (distance * distance - S1_LENGTH * S1_LENGTH - S2_LENGTH * S2_LENGTH) / (
@@ -136,7 +141,7 @@ def _largest_beta_that_reaches(distance):
     return 180.0 if cosine <= 0.0 else bearing(cosine, sqrt(1.0 - cosine * cosine))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _sub_step(turn, world):
     """(sine, cosine) of one sub-step of a joint's turn [deg]; a turn is full unless a bound cut it."""
     if turn == 0.0:
@@ -148,14 +153,14 @@ def _sub_step(turn, world):
     return sin_cos(turn / SUB_STEPS)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _to_s2(x, y, sin_beta, cos_beta):
     """(u, v) along and to the left of S2, of the point (x, y) in S1's frame."""
     x -= S1_LENGTH
     return x * cos_beta + y * sin_beta, y * cos_beta - x * sin_beta
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _beyond(u):
     """How far u lies beyond either end of S2 [cm]."""
     if u < 0.0:

@@ -1,9 +1,9 @@
 """Sense, think and turn, for all lanes at once (spec sections 4 and 5)."""
 
 import numpy as np
-from numba import njit
 
 from arm2d.arithmetic import sigmoid
+from arm2d.compiling import compiled
 from arm2d.constants import (
     ALPHA_MAX,
     ALPHA_MIN,
@@ -52,7 +52,7 @@ GAIN = 83
 N_CAMERA_CODES = 512
 
 
-@njit(cache=True, error_model="numpy", inline="never")
+@compiled
 def tabulate_drives(network, betas, codes, touch, camera, bend, words):
     """Fill in what each state of each kind of input adds to the three inter-neurons.
 
@@ -95,7 +95,7 @@ def tabulate_drives(network, betas, codes, touch, camera, bend, words):
                     )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _sum_of_bits(weights, first, count, code, off, on, j):
     """Drive on inter-neuron j of `count` inputs from `first` on, whose values are the bits of `code`."""
     total = 0.0
@@ -104,30 +104,34 @@ def _sum_of_bits(weights, first, count, code, off, on, j):
     return total
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def sense_camera(s, n, lanes, right, left):
     """Set the nine camera bits of each lane; alpha at or beyond `right` or `left` [deg] sees white."""
     for i in range(lanes):
         alpha = s[ALPHA + i]
-        code = 7 if alpha <= right else 0
-        code |= 7 << 6 if alpha >= left else 0
-        for disc in range(3):
-            low = s[LOW + disc * N_LANES + i] - alpha
-            high = s[HIGH + disc * N_LANES + i] - alpha
-            first = (low < -MIDDLE_SECTOR_HALF_WIDTH) & (high >= -VIEW_HALF_WIDTH)
-            middle = (low <= MIDDLE_SECTOR_HALF_WIDTH) & (high >= -MIDDLE_SECTOR_HALF_WIDTH)
-            last = (low <= VIEW_HALF_WIDTH) & (high > MIDDLE_SECTOR_HALF_WIDTH)
-            code |= (1 << disc if first else 0) | (8 << disc if middle else 0) | (64 << disc if last else 0)
-        n[CAMERA + i] = code
+        blue = _sector_bits(s[LOW + i] - alpha, s[HIGH + i] - alpha)
+        green = _sector_bits(s[LOW + N_LANES + i] - alpha, s[HIGH + N_LANES + i] - alpha)
+        red = _sector_bits(s[LOW + 2 * N_LANES + i] - alpha, s[HIGH + 2 * N_LANES + i] - alpha)
+        white = (0o007 if alpha <= right else 0) | (0o700 if alpha >= left else 0)
+        n[CAMERA + i] = white | blue | green << 1 | red << 2
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
+def _sector_bits(low, high):
+    """Bits 0, 3 and 6: the sectors that meet [low, high], bearings relative to the camera [deg]."""
+    first = (low < -MIDDLE_SECTOR_HALF_WIDTH) & (high >= -VIEW_HALF_WIDTH)
+    middle = (low <= MIDDLE_SECTOR_HALF_WIDTH) & (high >= -MIDDLE_SECTOR_HALF_WIDTH)
+    last = (low <= VIEW_HALF_WIDTH) & (high > MIDDLE_SECTOR_HALF_WIDTH)
+    return (0o001 if first else 0) | (0o010 if middle else 0) | (0o100 if last else 0)
+
+
+@compiled(allocates=False)
 def beta_key(beta):
     """The row of a value of beta [deg] in the table `bend`."""
     return np.uint64(beta * BETA_KEYS_PER_DEGREE + 0.5)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def gather_drives(s, n, d, lanes, touch, camera, bend):
     """Add up what words, touch, camera and bend drive (eq. 1 and the first sum of eq. 2).
 
@@ -142,7 +146,7 @@ def gather_drives(s, n, d, lanes, touch, camera, bend):
         s[DRIVE + i], s[DRIVE + N_LANES + i], s[DRIVE + 2 * N_LANES + i] = drive0, drive1, drive2
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def think(s, lanes, network):
     """Advance the inter-neurons by one Euler step (eq. 2)."""
     w00, w01, w02 = network[RECURRENT], network[RECURRENT + 1], network[RECURRENT + 2]
@@ -165,7 +169,7 @@ def think(s, lanes, network):
         s[Z + 2 * N_LANES + i] = sigmoid(y2 + bias2)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def turn(s, n, lanes, network, turn_size):
     """Turn the joints as the motor neurons say (eq. 3).
 

@@ -3,13 +3,13 @@
 from typing import Final, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from arm2d.arithmetic import sigmoid
+from arm2d.compiling import compiled
 from arm2d.constants import BETA_MAX, N_INTER, N_OBJECTS, VIEW_HALF_WIDTH
 from arm2d.kernel import lanes as at
-from arm2d.kernel.contact import place_disc, touch_discs
+from arm2d.kernel.contact import place_disc, set_limit, touch_discs
 from arm2d.kernel.controller import (
     INTER_BIAS,
     N_CAMERA_CODES,
@@ -78,7 +78,7 @@ RECORD_CHANGED: Final = 17
 RECORD_COLUMNS: Final = 18
 
 
-@njit(cache=True, error_model="numpy", nogil=True)
+@compiled(nogil=True)
 def run_population(networks, trials, world, betas, codes, outcomes, recording):
     """Run all trials with every network, one network after the other.
 
@@ -96,13 +96,18 @@ def run_population(networks, trials, world, betas, codes, outcomes, recording):
     d = np.zeros(at.ROW * N_LANES)
     touch, camera = np.zeros((4, at.ROW)), np.zeros((N_CAMERA_CODES, at.ROW))
     bend, words = np.zeros((N_BETA_KEYS, at.ROW)), np.zeros((4, N_OBJECTS, at.ROW))
+    changing = np.any(trials.delay != NO_CHANGE)
     for p in range(len(networks)):
         tabulate_drives(networks[p], betas, codes, touch, camera, bend, words)
-        _run_network(p, networks[p], trials, world, s, n, d, touch, camera, bend, words, outcomes, recording)
+        _run_network(
+            p, networks[p], trials, world, s, n, d, touch, camera, bend, words, outcomes, changing, recording
+        )
 
 
-@njit(cache=True, error_model="numpy")
-def _run_network(p, network, trials, world, s, n, d, touch, camera, bend, words, outcomes, recording):
+@compiled(allocates=False)
+def _run_network(
+    p, network, trials, world, s, n, d, touch, camera, bend, words, outcomes, changing, recording
+):
     """Run all trials with one network, N_LANES at a time."""
     n_trials = len(trials.action)
     objects, keep, turn_size = trials.object, world.keep, world.turn
@@ -111,7 +116,6 @@ def _run_network(p, network, trials, world, s, n, d, touch, camera, bend, words,
     while active < N_LANES and waiting < n_trials:
         _start(s, n, d, active, waiting, network, trials, world, words)
         active, waiting = active + 1, waiting + 1
-    changing = np.any(trials.delay != NO_CHANGE)
     steps = 0
     while active > 0:
         lanes = (active + BLOCK - 1) // BLOCK * BLOCK
@@ -143,7 +147,7 @@ def _run_network(p, network, trials, world, s, n, d, touch, camera, bend, words,
                 _copy_lane(s, n, d, active, i)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _start(s, n, d, i, trial, network, trials, world, words):
     """Put lane i at the start of a trial."""
     n[at.TRIAL + i] = trial
@@ -154,7 +158,8 @@ def _start(s, n, d, i, trial, network, trials, world, words):
         s[at.Z + j * N_LANES + i] = sigmoid(0.0 + network[INTER_BIAS + j])
     for disc in range(N_OBJECTS):
         n[at.SIDE + disc * N_LANES + i] = at.NONE
-        place_disc(s, disc * N_LANES + i, i, trials.bearing[trial, disc], trials.distance[trial, disc], world)
+        place_disc(s, disc * N_LANES + i, trials.bearing[trial, disc], trials.distance[trial, disc], world)
+    set_limit(s, i, world)
     s[at.TARGET + i] = trials.bearing[trial, trials.object[trial]]
     s[at.FIRST_OFFSET + i] = offset_from_target(s, i)
     n[at.TOUCH + i] = 0
@@ -170,14 +175,14 @@ def _start(s, n, d, i, trial, network, trials, world, words):
     _hear(d, i, trials.heard[trial, 0], words)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _hear(d, i, instruction, words):
     """Let lane i hear an instruction (action, object)."""
     for j in range(N_INTER):
         d[at.ROW * i + j] = words[instruction[0], instruction[1], j]
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _change_words(s, n, d, lanes, trials, words):
     """Change the instruction where the drawn number of steps has passed since the target was seen."""
     for i in range(lanes):
@@ -193,7 +198,7 @@ def _change_words(s, n, d, lanes, trials, words):
             _hear(d, i, trials.heard[n[at.TRIAL + i], 1], words)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _finish(s, n, i, p, trials, world, outcomes):
     """Score the ended trial of lane i."""
     trial = n[at.TRIAL + i]
@@ -205,7 +210,7 @@ def _finish(s, n, i, p, trials, world, outcomes):
     outcomes.steps[p, trial] = n[at.STEP + i]
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _copy_lane(s, n, d, source, target):
     """Move a trial to another lane."""
     for field in range(N_FLOAT_FIELDS):
@@ -216,7 +221,7 @@ def _copy_lane(s, n, d, source, target):
         n[field * N_LANES + target] = n[field * N_LANES + source]
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def _record(s, n, row):
     """Write down lane 0 after a step, before the words may change."""
     row[RECORD_ALPHA] = s[at.ALPHA]

@@ -1,8 +1,8 @@
 """Criteria step by step, and F1 to F3 at the end of a trial (spec section 8)."""
 
 import numpy as np
-from numba import njit
 
+from arm2d.compiling import compiled
 from arm2d.constants import (
     BETA_MAX,
     COLLISION_FACTOR,
@@ -59,7 +59,7 @@ def _truth_table(action: ActionWord) -> int:
 CRITERIA = np.array([_truth_table(action) for action in ActionWord])
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def set_criterion(s, n, i, action, world):
     """Tell lane i what a good step is, and which run of them ends the trial."""
     n[CRITERION + i] = CRITERIA[action]
@@ -71,7 +71,7 @@ def set_criterion(s, n, i, action, world):
         s[GOAL + i] = 2.0 * MAX_STEPS
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def score_step(s, n, lanes, keep):
     """Judge the step just made in each lane; returns how many trials it ended."""
     ended = 0
@@ -104,7 +104,7 @@ def score_step(s, n, lanes, keep):
     return ended
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def remember_stretch(s, lanes):
     """Keep the largest 1 - beta / 90 with the target in view; needed by one reading only."""
     for i in range(lanes):
@@ -112,14 +112,14 @@ def remember_stretch(s, lanes):
             s[STRETCH + i] = max(s[STRETCH + i], 1.0 - s[BETA + i] / BETA_MAX)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def offset_from_target(s, i):
     """Smaller angle between S1 and the bearing of the target, d [deg]."""
     away = abs(s[TARGET + i] - s[ALPHA + i])
     return away if away <= 180.0 else 360.0 - away
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def final_scores(s, n, i, world, action):
     """(F1, F2, F3, success) of the ended trial in lane i."""
     d, first = offset_from_target(s, i), s[FIRST_OFFSET + i]
