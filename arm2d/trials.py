@@ -236,5 +236,5 @@ def _check_starts(trials: Trials) -> None:
         raise ValueError(f"alpha must lie in [{c.ALPHA_MIN:g}, {c.ALPHA_MAX:g}] degrees")
     if not np.all(np.isfinite(trials.discs)):
         raise ValueError("a disc's centre is not a number")
-    if np.any(np.hypot(trials.discs[..., 0], trials.discs[..., 1]) < c.S1_LENGTH + 12.0):
-        raise ValueError(f"a disc lies within {c.S1_LENGTH + 12.0:g} cm of J1, where S1 could not pass it")
+    if np.any(np.hypot(trials.discs[..., 0], trials.discs[..., 1]) < c.S1_LENGTH):
+        raise ValueError(f"a disc's centre lies within {c.S1_LENGTH:g} cm of J1, where S2 never is")

@@ -1,7 +1,8 @@
 """The same trials in numpy, vectorised over genotypes and trials: the peer the kernel is measured against.
 
-Default readings only. Written as one would write it well: batched matrix products, no Python loop but
-that over the steps, contact computed only for the discs S2 may reach.
+Default readings only. Two versions share all but one line: `run_trials` computes every quantity of
+every trial at every step, masks doing the rest, as array code mostly does; `sparse=True` computes
+contact only for the discs that S2 may reach in the step, the best that numpy could be made to do here.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ MOVE, TOUCH, INDICATE, IGNORE = map(int, ActionWord)
 NONE, RIGHT, LEFT = 0, 1, 2
 
 
-def run_trials(genotypes: NDArray, trials: Trials, readings: Readings) -> TrialScores:
+def run_trials(
+    genotypes: NDArray, trials: Trials, readings: Readings, *, sparse: bool = False
+) -> TrialScores:
     """Run every trial with every genotype; as `arm2d.run_trials`."""
     nets, shape = decode(genotypes, readings), (len(genotypes), len(trials))
     everywhere = np.broadcast_to
@@ -39,7 +42,7 @@ def run_trials(genotypes: NDArray, trials: Trials, readings: Readings) -> TrialS
         turn1, turn2 = _turns(nets, y, readings.turn_size)
         after1 = np.where(active, np.clip(alpha + turn1, c.ALPHA_MIN, c.ALPHA_MAX), alpha)
         after2 = np.where(active, np.clip(beta + turn2, c.BETA_MIN, c.BETA_MAX), beta)
-        _touch(alpha, beta, after1, after2, discs, bearings, sides, readings.object_radius)
+        _touch(alpha, beta, after1, after2, discs, bearings, sides, readings.object_radius, sparse)
         turned, alpha, beta = after1 - alpha, after1, after2
         offset = _offset(alpha, np.take_along_axis(bearings, target, -1)[..., 0])
         side = np.take_along_axis(sides, target, -1)[..., 0]
@@ -89,14 +92,13 @@ def _turns(nets: Networks, y, size) -> tuple[NDArray, NDArray]:
     return size * (x[..., 0] > 0) * -np.sign(x[..., 1]), size * (x[..., 2] > 0) * -np.sign(x[..., 3])
 
 
-def _touch(alpha0, beta0, alpha1, beta1, discs, bearings, sides, radius) -> None:
-    """Resolve contacts (spec section 3) of the discs that S2 may reach in this step."""
+def _touch(alpha0, beta0, alpha1, beta1, discs, bearings, sides, radius, sparse) -> None:
+    """Resolve contacts (spec section 3) of all discs, or of those that S2 may reach in this step."""
     moved = (alpha1 != alpha0) | (beta1 != beta0)
-    offset, distance = bearings - alpha1[..., np.newaxis], np.hypot(discs[..., 0], discs[..., 1])
-    tip = np.hypot(c.S1_LENGTH + c.S2_LENGTH * np.cos(np.radians(beta1)), c.S2_LENGTH * np.sin(np.radians(beta1)))
-    near = moved[..., np.newaxis] & (offset > -15.0) & (offset < 42.0)
-    near &= distance < tip[..., np.newaxis] + radius + 3.0
-    sides[moved[..., np.newaxis] & ~near] = NONE
+    near = np.ones(sides.shape, bool)
+    if sparse:
+        near = _may_meet(moved, alpha1, beta1, discs, bearings, radius)
+        sides[moved[..., np.newaxis] & ~near] = NONE
     p, t, o = np.nonzero(near)
     if not len(p):
         return
@@ -118,6 +120,14 @@ def _touch(alpha0, beta0, alpha1, beta1, discs, bearings, sides, radius) -> None
         side = np.where(carried, side, np.where(met, np.where(v0 < 0.0, RIGHT, LEFT), free))
         u0, v0 = u, v
     discs[p, t, o], sides[p, t, o], bearings[p, t, o] = point, side, _bearing(point)
+
+
+def _may_meet(moved, alpha, beta, discs, bearings, radius) -> NDArray:
+    """Which discs lie where S2 can be within a step of these angles, [P, T, 3]."""
+    offset, distance = bearings - alpha[..., np.newaxis], np.hypot(discs[..., 0], discs[..., 1])
+    along = c.S1_LENGTH + c.S2_LENGTH * np.cos(np.radians(beta))
+    reach = np.hypot(along, c.S2_LENGTH * np.sin(np.radians(beta))) + radius + 3.0
+    return moved[..., np.newaxis] & (offset > -15.0) & (offset < 42.0) & (distance < reach[..., np.newaxis])
 
 
 def _to_s2(alpha, beta, point) -> tuple[NDArray, NDArray]:

@@ -1,0 +1,85 @@
+"""The record of readings: presets, what it derives, and what it refuses."""
+
+from dataclasses import fields
+
+import pytest
+
+from arm2d import Readings
+from arm2d.readings import PRESETS, choices
+
+
+def test_default_readings_are_the_ledgers_bold_column():
+    readings = Readings()
+    assert (readings.mutation_probability, readings.mutation_sd) == (0.4, 0.1)
+    assert (readings.object_radius, readings.sector_half_width) == (5.0, 10.0)
+    assert readings.sector_centres == (30.0, 90.0, 150.0)
+    assert readings.start_intervals == ((56.0, 64.0), (116.0, 124.0))
+
+
+def test_printed_preset_lets_ignore_run_on_and_nothing_else():
+    assert PRESETS["printed"].ignore_stops == "never"
+    assert PRESETS["printed"].with_values({"ignore_stops": "early"}) == Readings()
+
+
+def test_start_areas_follow_the_sectors():
+    assert Readings(sector_centres=(45.0, 90.0, 135.0)).start_intervals == ((63.5, 71.5), (108.5, 116.5))
+    assert Readings(start_areas="bounds").start_intervals == ((-30.0, 0.0), (180.0, 210.0))
+
+
+def test_turn_is_the_printed_one_to_a_tenth_of_a_picodegree():
+    assert Readings().turn_size == pytest.approx(2.9, abs=1e-13)
+    assert Readings(turn="radians").turn_size == pytest.approx(2.864788975654116, abs=1e-13)
+
+
+def test_sums_of_turns_from_ninety_degrees_are_exact():
+    turn = Readings().turn_size
+    there = [90.0]
+    for _ in range(31):
+        there.append(there[-1] - turn)
+    back = there[-1:]
+    for _ in range(31):
+        back.append(back[-1] + turn)
+    assert back[::-1] == there
+
+
+def test_readings_survive_the_way_through_plain_values():
+    readings = Readings(turn="radians", sector_centres=(45.0, 90.0, 135.0))
+    assert Readings.from_mapping(readings.to_mapping()) == readings
+
+
+def test_every_field_is_documented_in_the_source():
+    import inspect
+
+    source = inspect.getsource(Readings)
+    for each in fields(Readings):
+        _, _, after = source.partition(f"    {each.name}:")
+        assert after.splitlines()[1].strip().startswith('"""'), each.name
+
+
+def test_every_choice_between_words_names_its_default_first():
+    assert {name: words[0] for name, words in choices().items()} == {
+        name: getattr(Readings(), name) for name in choices()
+    }
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"object_radios": 5.0}, "unknown reading 'object_radios'; there are mutation_probability, "),
+        ({"turn": "gradians"}, "reading turn = 'gradians'; choose degrees or radians"),
+        ({"object_radius": 12.0}, r"reading object_radius = 12 must lie in \[0.1, 11.8\]"),
+        ({"object_radius": "5"}, "reading object_radius = '5' is not of the kind of its default 5.0"),
+        ({"mutation_probability": float("nan")}, "reading mutation_probability = nan must lie in"),
+        ({"sector_centres": [90.0, 30.0, 150.0]}, "give three rising bearings"),
+        ({"sector_centres": [30.0, 90.0]}, "give three rising bearings"),
+        ({"tau_exponent_max": True}, "reading tau_exponent_max = True is not of the kind"),
+    ],
+)
+def test_unsound_reading_is_refused_with_what_would_be_right(values, message):
+    with pytest.raises(ValueError, match=message):
+        Readings.from_mapping(values)
+
+
+def test_unknown_preset_lists_the_known_ones():
+    with pytest.raises(ValueError, match="unknown preset of readings 'bold'; there are default, printed"):
+        Readings.preset("bold")

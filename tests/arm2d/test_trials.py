@@ -1,0 +1,92 @@
+"""Drawing trials (spec section 2) and the record that holds them."""
+
+import numpy as np
+import pytest
+
+from arm2d import Condition, Readings, Trials, draw_trials
+
+INSTRUCTIONS = Condition.WITH_INDICATE.instructions
+
+
+def draw(readings=None, per_area=50, seed=0):
+    return draw_trials(INSTRUCTIONS, per_area, readings or Readings(), np.random.default_rng(seed))
+
+
+@pytest.mark.parametrize("readings", [Readings(), Readings(start_areas="bounds")])
+def test_half_of_each_instructions_trials_start_in_each_area(readings):
+    (right, left), trials = readings.start_intervals, draw(readings)
+    alpha = trials.alpha.reshape(9, 2, 50)
+    assert right[0] <= alpha[:, 0].min() < alpha[:, 0].max() <= right[1]
+    assert left[0] <= alpha[:, 1].min() < alpha[:, 1].max() <= left[1]
+    assert trials.instructions == [each for each in INSTRUCTIONS for _ in range(100)]
+
+
+@pytest.mark.parametrize("half_width", [3.0, 10.0])
+def test_discs_lie_on_the_chords_of_their_sectors(half_width):
+    readings = Readings(sector_half_width=half_width)
+    discs = draw(readings).discs
+    for disc, centre in enumerate(readings.sector_centres):
+        axis = np.radians(centre)
+        along = discs[:, disc] @ [np.cos(axis), np.sin(axis)]
+        across = discs[:, disc] @ [-np.sin(axis), np.cos(axis)]
+        np.testing.assert_allclose(along, 150 * np.cos(np.radians(half_width)), rtol=1e-12)
+        half_chord = 150 * np.sin(np.radians(half_width))
+        assert np.abs(across).max() <= half_chord + 1e-9
+        assert across.min() < -0.95 * half_chord
+        assert across.max() > 0.95 * half_chord
+
+
+def test_the_three_discs_are_drawn_independently():
+    discs = draw(per_area=500).discs
+    across = [(discs[:, k] - discs[:, k].mean(axis=0)) @ (discs[0, k] - discs[1, k]) for k in range(3)]
+    correlations = np.corrcoef(across)[np.triu_indices(3, 1)]
+    assert np.abs(correlations).max() < 0.05
+
+
+def test_no_object_is_in_view_at_the_start():
+    trials = draw(per_area=200)
+    bearings = np.degrees(np.arctan2(trials.discs[..., 1], trials.discs[..., 0]))
+    assert np.abs(bearings - trials.alpha[:, np.newaxis]).min() > 15
+
+
+def test_same_generator_state_draws_the_same_trials():
+    np.testing.assert_array_equal(draw(seed=4).discs, draw(seed=4).discs)
+    assert not np.array_equal(draw(seed=4).discs, draw(seed=5).discs)
+
+
+def test_indexing_gives_a_batch():
+    trials = draw()
+    assert len(trials[3]) == 1
+    assert len(trials[2:6]) == 4
+    assert trials[-1].alpha[0] == trials.alpha[-1]
+    with pytest.raises(IndexError, match="trial 900 does not exist; there are 900"):
+        trials[900]
+
+
+def test_trials_are_read_only():
+    with pytest.raises(ValueError, match="read-only"):
+        draw().alpha[0] = 0.0
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"actions": [4]}, "actions holds 4 to 4; the codes are 0 to 3"),
+        ({"objects": [0.5]}, "objects must be a row of whole numbers"),
+        ({"alpha": [300.0]}, r"alpha must lie in \[-30, 210\] degrees"),
+        ({"alpha": [np.nan]}, r"alpha must lie in \[-30, 210\] degrees"),
+        ({"discs": np.zeros((1, 3, 2))}, "a disc's centre lies within 100 cm of J1"),
+        ({"discs": np.full((1, 3, 2), np.inf)}, "a disc's centre is not a number"),
+        ({"discs": np.zeros((2, 3, 2))}, r"1 actions need objects \[1\], alpha \[1\] and discs \[1, 3, 2\]"),
+    ],
+)
+def test_unsound_trials_are_refused(change, message):
+    trial = draw()[0]
+    values = {"actions": trial.actions, "objects": trial.objects, "alpha": trial.alpha, "discs": trial.discs}
+    with pytest.raises(ValueError, match=message):
+        Trials(**{**values, **{name: np.array(value) for name, value in change.items()}})
+
+
+def test_no_trials_at_all_is_refused():
+    with pytest.raises(ValueError, match="asked for 0 trials per area of 9 instructions"):
+        draw(per_area=0)
