@@ -1,0 +1,7 @@
+"""`python -m evolution` is `wordarm`."""
+
+import sys
+
+from evolution.cli import main
+
+sys.exit(main())

@@ -1,0 +1,61 @@
+"""The command line: `wordarm <command>`.
+
+What a user got wrong is answered by one sentence on stderr and exit code 2.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from typing import Annotated, Final
+
+import tyro
+from tyro.conf import subcommand
+
+from arm2d import Readings
+from evolution.commands.evolve import Evolve, UncheckedReadings
+from evolution.commands.repair import Repair
+
+DESCRIPTION: Final = "An arm that obeys two-word instructions: evolve its controllers, test them, show them."
+BAD_INPUT: Final = 2
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command and return its exit code: 0, 2 for bad input, 130 after Ctrl-C."""
+    # A run is one thread; idle threads of linear algebra would only cost memory.
+    for library in ("OPENBLAS", "OMP", "MKL"):
+        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
+    try:
+        return parse(sys.argv[1:] if arguments is None else arguments).run()
+    except (ValueError, OSError) as error:
+        print(f"wordarm: {_sentence(error)}", file=sys.stderr)
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        return 130
+
+
+def parse(arguments: Sequence[str]) -> Evolve | Repair:
+    """The command that the arguments ask for; the option parser exits with code 2 where it finds none."""
+    command = _parse(arguments, Evolve())
+    if isinstance(command, Evolve) and command.preset != "default":
+        # Now that the preset is known, its readings become the defaults of those that were not set.
+        start = UncheckedReadings(**vars(Readings.preset(command.preset)))
+        command = _parse(arguments, Evolve(readings=start))
+    return command
+
+
+def _parse(arguments: Sequence[str], evolve: Evolve) -> Evolve | Repair:
+    """Parse, with the defaults of `wordarm evolve` as given."""
+    commands = (
+        Annotated[Evolve, subcommand("evolve", default=evolve)]
+        | Annotated[Repair, subcommand("repair")]
+    )  # fmt: skip
+    return tyro.cli(commands, prog="wordarm", description=DESCRIPTION, args=arguments)  # pyright: ignore
+
+
+def _sentence(error: ValueError | OSError) -> str:
+    """What an error says, with the file a system call failed on."""
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
+    return str(error)

@@ -1,0 +1,93 @@
+"""`wordarm evolve`: one run, or the rest of it."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Annotated
+
+from tyro.conf import arg
+
+from arm2d import Condition, Readings
+from evolution.config import RunConfig
+from evolution.settings import Settings
+
+INTERRUPTED = 130
+
+
+@dataclass(frozen=True)
+class UncheckedReadings(Readings):
+    """How what the paper leaves open is understood (docs/readings.md)."""
+
+    # The option parser would wrap the message of an impossible value; `checked` raises it plainly.
+    def __post_init__(self) -> None:
+        pass
+
+    def checked(self) -> Readings:
+        """The same readings, refused if impossible."""
+        return Readings.from_mapping(asdict(self))
+
+
+@dataclass(frozen=True)
+class Evolve:
+    """Evolve controllers from random genotypes; repeat the command to go on with a stopped run.
+
+    Ctrl-C stops after the generation at hand, and nothing is lost.
+    """
+
+    condition: str = "with-indicate"
+    """Which third action is met beside MOVE and TOUCH: with-indicate or with-ignore."""
+
+    seed: int = 1
+    """All random numbers of the run follow from it."""
+
+    settings: Annotated[Settings, arg(name="")] = Settings()  # noqa: RUF009 - frozen
+
+    experiment: str = "default"
+    """Folder of runs that belong together, under runs/."""
+
+    output: Path | None = None
+    """Run folder. By default runs/<experiment>/<condition>/seed-<seed>."""
+
+    preset: str = "default"
+    """Readings to start from: default, or printed (the paper at its word); single ones can be set below."""
+
+    readings: UncheckedReadings = UncheckedReadings()
+
+    @property
+    def config(self) -> RunConfig:
+        """The run that is asked for."""
+        condition = Condition.parse(self.condition)
+        return RunConfig(condition, self.seed, self.settings, self.readings.checked())
+
+    def run(self) -> int:
+        """Evolve; the exit code is 130 if the run was stopped before its end."""
+        from rich.console import Console
+
+        from evolution.interrupt import StopRequest
+        from evolution.progress import shown_progress
+        from evolution.run import Watcher, evolve
+
+        config = self.config
+        path = self.output or default_folder(self.experiment, config)
+        console = Console()
+        total = config.settings.generations
+        with StopRequest() as stop, shown_progress(console, total) as show:
+            watcher = Watcher(
+                on_start=lambda generation: print(f"{path}: from generation {generation} on"),
+                on_generation=show,
+                on_note=lambda note: print(note, file=sys.stderr),
+                wants_stop=lambda: stop.requested,
+            )
+            done = evolve(path, config, watcher)
+        if done < total:
+            print(f"stopped after {done} of {total} generations; go on with the same command")
+            return INTERRUPTED
+        print(f"finished: {path}\nlook at it with: wordarm evaluate {path}")
+        return 0
+
+
+def default_folder(experiment: str, config: RunConfig) -> Path:
+    """Where a run is kept unless told otherwise."""
+    return Path("runs") / experiment / config.condition / f"seed-{config.seed:04d}"

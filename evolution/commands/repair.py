@@ -1,0 +1,24 @@
+"""`wordarm repair`: damaged or missing files of a run, computed again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from tyro.conf import Positional
+
+
+@dataclass(frozen=True)
+class Repair:
+    """Compute the damaged or missing files of a run again, with the bits they had."""
+
+    folder: Positional[Path]
+    """Run folder."""
+
+    def run(self) -> int:
+        """Repair what can be repaired."""
+        from evolution.repair import repair
+
+        n_repaired = repair(self.folder, print)
+        print(f"{self.folder} is sound" + (f": {n_repaired} files repaired" if n_repaired else ""))
+        return 0

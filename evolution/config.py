@@ -1,0 +1,113 @@
+"""Everything that determines a run's result, as a record and as its config.toml."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+import tomli_w
+
+from arm2d import Condition, Readings
+from evolution.settings import Settings
+
+# Raised when an older reader could misunderstand the file.
+FORMAT: Final = 1
+HEADING: Final = "# Everything that determines the result of this run. Its files are bound to these bytes.\n"
+SEED_LIMIT: Final = 2**63
+KNOWN_KEYS: Final = ("format", "condition", "seed", "settings", "readings")
+
+
+@dataclass(frozen=True)
+class RunConfig:
+    """One run: which instructions, which chance, which algorithm, which world.
+
+    Attributes:
+        condition: Which third action is met.
+        seed: All of the run's random numbers follow from it.
+        settings: The genetic algorithm.
+        readings: How the paper is understood.
+    """
+
+    condition: Condition = Condition.WITH_INDICATE
+    seed: int = 1
+    settings: Settings = field(default_factory=Settings)
+    readings: Readings = field(default_factory=Readings)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.seed, int) or isinstance(self.seed, bool) or not 0 <= self.seed < SEED_LIMIT:
+            raise ValueError(f"seed = {self.seed!r} must be a whole number from 0 to 2**63 - 1")
+
+    @classmethod
+    def from_mapping(cls, values: Mapping[str, Any]) -> RunConfig:
+        """A run from plain values, as read from its config.toml.
+
+        Raises:
+            ValueError: If a key is unknown, or a value is missing or impossible.
+        """
+        _check_keys(values)
+        settings, readings = values.get("settings", {}), values.get("readings", {})
+        if not isinstance(settings, Mapping) or not isinstance(readings, Mapping):
+            raise ValueError("settings and readings must be tables, such as [settings]")
+        return cls(
+            Condition.parse(str(values["condition"])),
+            values["seed"],
+            Settings.from_mapping(settings),
+            Readings.from_mapping(readings),
+        )
+
+    @classmethod
+    def from_toml(cls, text: str) -> RunConfig:
+        """A run from the text of its config.toml.
+
+        Raises:
+            ValueError: As `from_mapping`, and if the text is not TOML.
+        """
+        try:
+            values = tomllib.loads(text)
+        except tomllib.TOMLDecodeError as error:
+            raise ValueError(f"this is not TOML: {error}") from None
+        return cls.from_mapping(values)
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Every value in plain form."""
+        return {
+            "format": FORMAT,
+            "condition": str(self.condition),
+            "seed": self.seed,
+            "settings": self.settings.to_mapping(),
+            "readings": self.readings.to_mapping(),
+        }
+
+    def to_toml(self) -> str:
+        """The text of config.toml; reading it back gives this record."""
+        return HEADING + tomli_w.dumps(self.to_mapping())
+
+    def differences(self, other: RunConfig) -> list[str]:
+        """What is otherwise in `other`, such as "seed = 3, not 4"; empty if they are the same run."""
+        mine, others = _flatten(self.to_mapping()), _flatten(other.to_mapping())
+        return [f"{key} = {mine[key]}, not {others[key]}" for key in mine if mine[key] != others[key]]
+
+
+def _check_keys(values: Mapping[str, Any]) -> None:
+    """Refuse unknown and missing keys, and formats of the future."""
+    for key in values:
+        if key not in KNOWN_KEYS:
+            raise ValueError(f"unknown key {key!r}; there are {', '.join(KNOWN_KEYS)}")
+    for key in ("format", "condition", "seed"):
+        if key not in values:
+            raise ValueError(f"{key} is missing; a run needs format, condition and seed")
+    if values["format"] != FORMAT:
+        raise ValueError(f"format {values['format']!r} is not known here; this version reads format {FORMAT}")
+
+
+def _flatten(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of a table of tables under dotted names."""
+    flat = {}
+    for key, value in values.items():
+        if isinstance(value, Mapping):
+            flat.update({f"{key}.{name}": each for name, each in value.items()})
+        else:
+            flat[key] = value
+    return flat

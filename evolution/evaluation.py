@@ -1,0 +1,94 @@
+"""How well genotypes carry out all nine instructions of a condition (section VII)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from arm2d import Condition, Readings, draw_trials, run_trials
+from evolution.algorithm import mean_in_order
+from evolution.randomness import Purpose, generator
+
+# The paper's: 80 trials of each instruction, 40 from each start area.
+TRIALS_PER_AREA: Final = 40
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What P genotypes made of nine instructions, in the order of `condition.instructions`.
+
+    Attributes:
+        condition: Names the instructions.
+        per_area: Trials of each instruction from each start area.
+        trial_seed: What the trials were drawn with.
+        successes: [P, 9, 2], successful trials from the right and from the left area.
+        fitness: [P, 9], mean F1 + F2 + F3.
+        f1: [P, 9], mean F1,
+        f2: [P, 9], mean F2,
+        f3: [P, 9], mean F3.
+        steps: [P, 9], mean number of steps.
+    """
+
+    condition: Condition
+    per_area: int
+    trial_seed: int
+    successes: NDArray[np.int64]
+    fitness: NDArray[np.float64]
+    f1: NDArray[np.float64]
+    f2: NDArray[np.float64]
+    f3: NDArray[np.float64]
+    steps: NDArray[np.float64]
+
+    @property
+    def trials(self) -> int:
+        """Trials of each instruction."""
+        return 2 * self.per_area
+
+    @property
+    def experienced(self) -> NDArray[np.bool_]:
+        """Which of the nine instructions were met during evolution, [9]."""
+        return np.array([each in self.condition.experienced for each in self.condition.instructions])
+
+
+def evaluate(
+    genotypes: ArrayLike,
+    condition: Condition,
+    readings: Readings,
+    *,
+    per_area: int = TRIALS_PER_AREA,
+    trial_seed: int = 0,
+) -> Evaluation:
+    """Run fresh trials of all nine instructions.
+
+    Args:
+        genotypes: [P, 84], or one [84]. All meet the same trials.
+        condition: Which nine instructions.
+        readings: The world, which should be the one they evolved in.
+        per_area: Trials of each instruction from each start area.
+        trial_seed: Draws the trials.
+
+    Raises:
+        ValueError: If a genotype is unsound, or there are no trials.
+    """
+    rng = generator(trial_seed, Purpose.EVALUATION)
+    trials = draw_trials(condition.instructions, per_area, readings, rng)
+    scores = run_trials(genotypes, trials, readings)
+    n_genotypes, n_instructions = len(scores.f1), len(condition.instructions)
+
+    def mean(values: NDArray) -> NDArray[np.float64]:
+        return mean_in_order(values.reshape(n_genotypes, n_instructions, -1))
+
+    return Evaluation(
+        condition=condition,
+        per_area=per_area,
+        trial_seed=trial_seed,
+        successes=scores.success.reshape(n_genotypes, n_instructions, 2, per_area).sum(axis=-1),
+        fitness=mean(scores.fitness),
+        f1=mean(scores.f1),
+        f2=mean(scores.f2),
+        f3=mean(scores.f3),
+        steps=mean(scores.steps),
+    )

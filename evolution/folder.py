@@ -1,0 +1,230 @@
+"""The folder of one run: which files it holds, and how they are read and written (docs/file-formats.md).
+
+Parts are written once. A checkpoint is replaced as a whole. Each `.npz` names the config.toml it
+belongs to, so that a file of another run is not taken for one of this.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d.constants import N_GENES
+from evolution.config import RunConfig
+from evolution.history import History, check_array, history_from_arrays
+from evolution.population import Population
+from evolution.storage import DamagedFileError, read_arrays, verified_bytes, write_arrays, write_atomically
+
+GENERATIONS_PER_PART: Final = 100
+CONFIG, CHECKPOINT, CHAMPIONS, PARTS, META = (
+    "config.toml",
+    "checkpoint.npz",
+    "champions.npz",
+    "parts",
+    "meta.json",
+)
+OWN_FILES: Final = frozenset({CONFIG, CHECKPOINT, CHAMPIONS, PARTS, META, "lock"})
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """Where a run can go on.
+
+    Attributes:
+        population: The next generation to be scored.
+        unfinished: The generations scored since the last part was written.
+    """
+
+    population: Population
+    unfinished: History
+
+    @property
+    def first(self) -> int:
+        """The generation after the last part: the first of the unfinished ones."""
+        return self.population.generation - len(self.unfinished)
+
+
+@dataclass(frozen=True)
+class RunFolder:
+    """The files of one run.
+
+    Attributes:
+        path: The folder.
+        config: The run.
+    """
+
+    path: Path
+    config: RunConfig
+
+    @classmethod
+    def open(cls, path: Path) -> RunFolder:
+        """The folder of a run that was started before.
+
+        Raises:
+            ValueError: If there is none, or its config.toml cannot be understood.
+        """
+        config = path / CONFIG
+        if not path.is_dir():
+            raise ValueError(f"{path} is not a folder; give the folder of a run, with its {CONFIG}")
+        if not config.is_file():
+            raise ValueError(f"{path} holds no run: {CONFIG} is missing; start one with: wordarm evolve")
+        try:
+            return cls(path, RunConfig.from_toml(config.read_text(encoding="utf-8")))
+        except ValueError as error:
+            raise ValueError(
+                f"{config} cannot be read: {error}; remove it and repeat the command that started the run"
+            ) from None
+
+    @classmethod
+    def create(cls, path: Path, config: RunConfig) -> RunFolder:
+        """The folder of this run, made if need be.
+
+        Raises:
+            ValueError: If the folder holds another run, or other things.
+            OSError: If it cannot be written.
+        """
+        if (path / CONFIG).exists():
+            found = cls.open(path)
+            if differences := found.config.differences(config):
+                raise ValueError(f"{path} was started with {'; '.join(differences)}; choose a new directory")
+            return found
+        _check_free(path)
+        (path / PARTS).mkdir(parents=True, exist_ok=True)
+        write_atomically(path / CONFIG, config.to_toml().encode())
+        return cls(path, config)
+
+    @property
+    def identity(self) -> str:
+        """SHA-256 of config.toml, which every array file of the run carries."""
+        return hashlib.sha256((self.path / CONFIG).read_bytes()).hexdigest()
+
+    @property
+    def spans(self) -> list[range]:
+        """The generations of each part of the finished run."""
+        end = self.config.settings.generations
+        return [range(i, min(i + GENERATIONS_PER_PART, end)) for i in range(0, end, GENERATIONS_PER_PART)]
+
+    def part_path(self, span: range) -> Path:
+        """Where the generations of `span` are kept."""
+        return self.path / PARTS / f"gen-{span.start:06d}-{span.stop - 1:06d}.npz"
+
+    def finished_spans(self) -> list[range]:
+        """The spans whose parts are there, from generation 0 on without a gap.
+
+        Raises:
+            DamagedFileError: If a part is missing although later ones are there.
+        """
+        present = [self.part_path(span).exists() for span in self.spans]
+        n = present.index(False) if False in present else len(present)
+        if any(present[n:]):
+            raise self.damaged(self.spans[n], "it is missing")
+        return self.spans[:n]
+
+    def check_part(self, span: range) -> None:
+        """Verify a part's checksum only; raises as `read_part`."""
+        try:
+            verified_bytes(self.part_path(span))
+        except DamagedFileError as error:
+            raise self.damaged(span, error.found) from None
+
+    def read_part(self, span: range) -> History:
+        """The generations of `span`.
+
+        Raises:
+            DamagedFileError: If the part is not what was written.
+        """
+        path = self.part_path(span)
+        try:
+            return history_from_arrays(path, self.read_arrays(path), span, self.config.settings.population)
+        except DamagedFileError as error:
+            raise self.damaged(span, error.found) from None
+
+    def histories(self) -> Iterator[History]:
+        """All that is recorded: part after part, then what the checkpoint holds beyond them.
+
+        Raises:
+            DamagedFileError: If one of the files is damaged.
+        """
+        spans = self.finished_spans()
+        for span in spans:
+            yield self.read_part(span)
+        if len(spans) < len(self.spans) and (checkpoint := self.read_checkpoint()):
+            end = spans[-1].stop if spans else 0
+            if len(checkpoint.unfinished) and checkpoint.unfinished.generations[0] == end:
+                yield checkpoint.unfinished
+
+    def write_part(self, span: range, history: History) -> None:
+        """Keep the generations of `span` for good."""
+        self.write_arrays(self.part_path(span), history.arrays())
+
+    def read_checkpoint(self) -> Checkpoint | None:
+        """The checkpoint, if there is one.
+
+        Raises:
+            DamagedFileError: If it is not what was written.
+        """
+        path = self.path / CHECKPOINT
+        if not path.exists():
+            return None
+        arrays = self.read_arrays(path)
+        n_genotypes = self.config.settings.population
+        check_array(path, arrays, "generation", (), np.dtype(np.int64))
+        check_array(path, arrays, "next_genotypes", (n_genotypes, N_GENES), np.dtype(np.float64))
+        check_array(path, arrays, "next_parents", (n_genotypes,), np.dtype(np.int64))
+        generation = int(arrays["generation"])
+        population = Population(generation, arrays["next_genotypes"], arrays["next_parents"])
+        unfinished = range(self._part_start(generation), generation)
+        return Checkpoint(population, history_from_arrays(path, arrays, unfinished, n_genotypes))
+
+    def write_checkpoint(self, checkpoint: Checkpoint) -> None:
+        """Replace the checkpoint."""
+        population = checkpoint.population
+        arrays = {
+            "generation": np.array(population.generation),
+            "next_genotypes": population.genotypes,
+            "next_parents": population.parents,
+            **checkpoint.unfinished.arrays(),
+        }
+        self.write_arrays(self.path / CHECKPOINT, arrays)
+
+    def read_arrays(self, path: Path) -> dict[str, NDArray]:
+        """The arrays of one of this run's files.
+
+        Raises:
+            DamagedFileError: If the file is not what was written, or is another run's.
+        """
+        arrays = read_arrays(path)
+        if str(arrays.pop("config_sha256", "")) != self.identity:
+            raise DamagedFileError(path, f"it does not belong to this {CONFIG}")
+        return arrays
+
+    def write_arrays(self, path: Path, arrays: dict[str, NDArray]) -> None:
+        """Write arrays to one of this run's files."""
+        write_arrays(path, {"config_sha256": np.array(self.identity), **arrays})
+
+    def damaged(self, span: range, found: str) -> DamagedFileError:
+        """The error of a part, with the way to repair it."""
+        return DamagedFileError(
+            self.part_path(span),
+            found,
+            f"recompute generations {span.start} to {span.stop - 1} with: wordarm repair {self.path}",
+        )
+
+    def _part_start(self, generation: int) -> int:
+        """The first generation of the part to which `generation` belongs; itself, if the run is over."""
+        return next((span.start for span in self.spans if generation in span), generation)
+
+
+def _check_free(path: Path) -> None:
+    """Refuse a folder that holds other things than a run."""
+    if path.is_dir():
+        names = {each.name for each in path.iterdir() if not each.name.endswith(".tmp")}
+        strangers = sorted(names - OWN_FILES)
+        if strangers:
+            raise ValueError(f"{path} holds {strangers[0]} but no run; choose a new directory")

@@ -1,0 +1,133 @@
+"""What is kept of scored generations, and its arrays in files.
+
+Axes: G generations in a row, P genotypes, the 5 best of each generation, 84 genes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d.constants import N_GENES
+from evolution.algorithm import mean_in_order, rank
+from evolution.population import Population
+from evolution.settings import N_BEST
+from evolution.storage import DamagedFileError
+
+
+@dataclass(frozen=True)
+class History:
+    """Scored generations in a row.
+
+    Attributes:
+        generations: [G], their numbers.
+        fitness: [G, P], of each genotype.
+        parents: [G, P], each genotype's parent as an index into the generation before; -1 in generation 0.
+        best_genotypes: [G, 5, 84], from the best on; equals in the order of their indices.
+        best: [G], highest fitness,
+        mean: [G],
+        median: [G],
+        worst: [G], lowest.
+    """
+
+    generations: NDArray[np.int32]
+    fitness: NDArray[np.float64]
+    parents: NDArray[np.int16]
+    best_genotypes: NDArray[np.float64]
+    best: NDArray[np.float64]
+    mean: NDArray[np.float64]
+    median: NDArray[np.float64]
+    worst: NDArray[np.float64]
+
+    @classmethod
+    def join(cls, histories: Iterable[History]) -> History:
+        """Histories that follow each other, as one."""
+        parts = list(histories)
+        return cls(*(np.concatenate([getattr(each, f.name) for each in parts]) for f in fields(cls)))
+
+    def __len__(self) -> int:
+        return len(self.generations)
+
+    def __getitem__(self, rows: slice) -> History:
+        return History(*(getattr(self, each.name)[rows] for each in fields(self)))
+
+    def arrays(self) -> dict[str, NDArray]:
+        """Its arrays by name, as they stand in a part."""
+        return {each.name: getattr(self, each.name) for each in fields(self)}
+
+
+class HistoryBuilder:
+    """Collects generations while they are scored."""
+
+    def __init__(self, n_genotypes: int) -> None:
+        self._generations: list[int] = []
+        self._fitness: list[NDArray] = []
+        self._parents: list[NDArray] = []
+        self._best_genotypes: list[NDArray] = []
+        self._n_genotypes = n_genotypes
+
+    def append(self, population: Population, fitness: NDArray[np.float64]) -> None:
+        """Add a generation with the fitness [P] it scored."""
+        self._generations.append(population.generation)
+        self._fitness.append(fitness)
+        self._parents.append(population.parents)
+        self._best_genotypes.append(population.genotypes[rank(fitness)[:N_BEST]])
+
+    def extend(self, history: History) -> None:
+        """Add what was collected before."""
+        self._generations.extend(history.generations.tolist())
+        self._fitness.extend(history.fitness)
+        self._parents.extend(history.parents)
+        self._best_genotypes.extend(history.best_genotypes)
+
+    def build(self) -> History:
+        """All that was added."""
+        n = len(self._generations)
+        fitness = np.array(self._fitness, dtype=np.float64).reshape(n, self._n_genotypes)
+        best_genotypes = np.array(self._best_genotypes, dtype=np.float64)
+        return History(
+            generations=np.array(self._generations, dtype=np.int32),
+            fitness=fitness,
+            parents=np.array(self._parents, dtype=np.int16).reshape(n, self._n_genotypes),
+            best_genotypes=best_genotypes.reshape(n, N_BEST, N_GENES),
+            best=fitness.max(axis=1),
+            mean=mean_in_order(fitness),
+            median=np.median(fitness, axis=1),
+            worst=fitness.min(axis=1),
+        )
+
+
+def history_from_arrays(path: Path, arrays: Mapping[str, NDArray], span: range, n_genotypes: int) -> History:
+    """A history read from a file, held against what it should be.
+
+    Args:
+        path: Where the arrays come from, for the message.
+        arrays: By name.
+        span: The generations they should be of.
+        n_genotypes: P.
+
+    Raises:
+        DamagedFileError: If an array is missing or of another kind, or the generations are others.
+    """
+    expected = HistoryBuilder(n_genotypes).build().arrays()
+    for name, example in expected.items():
+        check_array(path, arrays, name, (len(span), *example.shape[1:]), example.dtype)
+    history = History(*(arrays[name] for name in expected))
+    if history.generations.tolist() != list(span):
+        raise DamagedFileError(path, f"its generations are not {span.start} to {span.stop - 1}")
+    return history
+
+
+def check_array(
+    path: Path, arrays: Mapping[str, NDArray], name: str, shape: tuple[int, ...], dtype: np.dtype
+) -> None:
+    """Refuse a file whose array `name` is missing, or of another shape or kind."""
+    if name not in arrays:
+        raise DamagedFileError(path, f"it has no array {name}")
+    array = arrays[name]
+    if array.shape != shape or array.dtype != dtype:
+        raise DamagedFileError(path, f"its {name} is {array.dtype} {array.shape}, not {dtype} {shape}")

@@ -1,0 +1,130 @@
+"""One run from its first generation to its last: the loop, its checkpoints, and how it goes on."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from evolution import meta
+from evolution.algorithm import mean_in_order
+from evolution.champion import keep_champions
+from evolution.config import RunConfig
+from evolution.folder import CHAMPIONS, META, Checkpoint, RunFolder
+from evolution.history import HistoryBuilder
+from evolution.lock import locked
+from evolution.population import first_population, next_population
+from evolution.replay import replay_part
+from evolution.scoring import score_population
+from evolution.storage import DamagedFileError
+
+
+@dataclass(frozen=True)
+class Progress:
+    """A generation that was just scored.
+
+    Attributes:
+        generation: Its number.
+        best: Its highest fitness.
+        mean: Its mean fitness.
+    """
+
+    generation: int
+    best: float
+    mean: float
+
+
+@dataclass(frozen=True)
+class Watcher:
+    """What a run tells its caller, and asks of it.
+
+    Attributes:
+        on_start: Called with the number of the first generation to be scored.
+        on_generation: Called after each generation.
+        on_note: Called with a sentence when something unexpected was put right.
+        wants_stop: Asked after each generation; if so, the run is left in good order.
+    """
+
+    on_start: Callable[[int], None] = lambda generation: None
+    on_generation: Callable[[Progress], None] = lambda progress: None
+    on_note: Callable[[str], None] = lambda note: None
+    wants_stop: Callable[[], bool] = lambda: False
+
+
+def evolve(path: Path, config: RunConfig, watcher: Watcher | None = None) -> int:
+    """Start a run in a folder, or go on with it, until its last generation or until stopped.
+
+    Args:
+        path: The run folder; made if it is not there.
+        config: The run. A folder with another one is refused.
+        watcher: Is told of progress, and may stop the run.
+
+    Returns:
+        How many generations are scored: all of `config.settings.generations` unless stopped.
+
+    Raises:
+        ValueError: If the folder holds something else, a damaged part, or is in use.
+        OSError: If it cannot be written; what was written before stays whole.
+    """
+    watcher = watcher or Watcher()
+    folder = RunFolder.create(path, config)
+    with locked(path):
+        reached = resume(folder, watcher)
+        if reached.population.generation < config.settings.generations:
+            reached = _score_generations(folder, reached, watcher)
+        if reached.population.generation == config.settings.generations and not (path / CHAMPIONS).exists():
+            keep_champions(folder)
+    return reached.population.generation
+
+
+def resume(folder: RunFolder, watcher: Watcher) -> Checkpoint:
+    """Where a run can go on: at its checkpoint, or after its parts if they are newer or it is damaged."""
+    spans = folder.finished_spans()
+    end = spans[-1].stop if spans else 0
+    checkpoint = _sound_checkpoint(folder, watcher)
+    population = first_population(folder.config)
+    if checkpoint and checkpoint.first <= end:
+        population = checkpoint.population
+    for span in spans:
+        if span.stop <= population.generation:
+            folder.check_part(span)
+        else:
+            population = replay_part(folder, span, population)
+    if checkpoint and checkpoint.first == end:
+        return checkpoint
+    return Checkpoint(population, HistoryBuilder(folder.config.settings.population).build())
+
+
+def _sound_checkpoint(folder: RunFolder, watcher: Watcher) -> Checkpoint | None:
+    """The checkpoint; none if it is damaged, for it holds nothing that cannot be computed again."""
+    try:
+        return folder.read_checkpoint()
+    except DamagedFileError as error:
+        watcher.on_note(f"{error}; going on from the parts instead")
+        return None
+
+
+def _score_generations(folder: RunFolder, start: Checkpoint, watcher: Watcher) -> Checkpoint:
+    """Score generation after generation; write a part and a checkpoint at the end of each part."""
+    config, began = folder.config, time.process_time()
+    population, part = start.population, HistoryBuilder(config.settings.population)
+    part.extend(start.unfinished)
+    span_until = {span.stop: span for span in folder.spans}
+    meta.note_start(folder.path / META, population.generation)
+    watcher.on_start(population.generation)
+    while population.generation < config.settings.generations and not watcher.wants_stop():
+        fitness = score_population(population, config)  # [P]
+        part.append(population, fitness)
+        watcher.on_generation(
+            Progress(population.generation, float(fitness.max()), float(mean_in_order(fitness)))
+        )
+        population = next_population(population, fitness, config)
+        if population.generation in span_until:
+            folder.write_part(span_until[population.generation], part.build())
+            part = HistoryBuilder(config.settings.population)
+            folder.write_checkpoint(Checkpoint(population, part.build()))
+    reached = Checkpoint(population, part.build())
+    folder.write_checkpoint(reached)
+    meta.note_end(folder.path / META, population.generation, time.process_time() - began)
+    return reached
