@@ -14,14 +14,11 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d import constants as c
 from arm2d.arithmetic import bearing
 from arm2d.controller import check_genotypes, decode_flat
-from arm2d.instructions import ACTION_CODES, OBJECT_CODES
 from arm2d.kernel import loop
-from arm2d.kernel.world import reachable_betas, world_of
+from arm2d.kernel.world import WORD_CODES, tables_of, world_of
 from arm2d.readings import Readings
 from arm2d.trials import TrialRecord, Trials, TrialScores
 
-# [7, 3]: three object words, then four action words.
-WORD_CODES = np.array([*OBJECT_CODES.values(), *(ACTION_CODES[action] for action in sorted(ACTION_CODES))])
 NO_RECORDING = np.empty((0, loop.RECORD_COLUMNS))
 
 
@@ -47,19 +44,12 @@ def run_trials(
         raise ValueError(f"asked for {threads} threads; there must be at least 1")
     genes = check_genotypes(genotypes)
     networks, arrays = decode_flat(genes, readings), _arrays_of(trials)
+    world, tables = world_of(readings), tables_of(readings)
     outcomes = _empty_outcomes(len(genes), len(trials))
 
     def run(part: slice) -> None:
         own = loop.Outcomes(*(each[part] for each in outcomes))
-        loop.run_population(
-            networks[part],
-            arrays,
-            world_of(readings),
-            reachable_betas(readings),
-            WORD_CODES,
-            own,
-            NO_RECORDING,
-        )
+        loop.run_population(networks[part], arrays, world, tables, own, NO_RECORDING)
 
     parts = _parts(len(genes), threads)
     if len(parts) == 1:
@@ -91,9 +81,8 @@ def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None =
     outcomes = _empty_outcomes(1, 1)
     rows = np.empty((c.MAX_STEPS, loop.RECORD_COLUMNS))
     networks = decode_flat(genes, readings)
-    loop.run_population(
-        networks, _arrays_of(trial), world_of(readings), reachable_betas(readings), WORD_CODES, outcomes, rows
-    )
+    world, tables = world_of(readings), tables_of(readings)
+    loop.run_population(networks, _arrays_of(trial), world, tables, outcomes, rows)
     scores = TrialScores(*outcomes)
     return _record_of(trial, readings, rows[: scores.steps[0, 0]], scores)
 

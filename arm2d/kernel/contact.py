@@ -4,17 +4,17 @@ A disc is followed in S1's frame (x along S1, J1 at the origin), in which S2 tur
 """
 
 from math import sqrt
-from typing import Final
+
+import numpy as np
 
 from arm2d.arithmetic import bearing, sin_cos
 from arm2d.compiling import compiled
 from arm2d.constants import (
+    BETA_MAX,
     N_OBJECTS,
-    PENETRATION_TOLERANCE,
     S1_LENGTH,
     S2_LENGTH,
     SUB_STEPS,
-    TOUCH_TOLERANCE,
 )
 from arm2d.kernel.lanes import (
     ALPHA,
@@ -38,24 +38,35 @@ from arm2d.kernel.lanes import (
     TRIAL,
     TURN,
 )
+from arm2d.kernel.world import beta_key
 
-# Bearing of S2's tip seen along S1, at its largest: S2 bent by 90 degrees, atan(50 / 100) [deg].
-LARGEST_TIP_OFFSET: Final = 26.6
+
+def _largest_beta_that_reaches(distance: float) -> float:
+    """The beta [deg] at which S2's tip is so far from J1 [cm]; 90 if it always is, -90 if never."""
+    cosine = (distance**2 - S1_LENGTH**2 - S2_LENGTH**2) / (2.0 * S1_LENGTH * S2_LENGTH)
+    if cosine > 1.0:
+        return -BETA_MAX
+    return BETA_MAX if cosine <= 0.0 else bearing(cosine, sqrt(1.0 - cosine * cosine)) + 1e-3
+
+
+# By whole centimetres, which round the distance down: a lane may be looked at in vain, never missed.
+LARGEST_BETA = np.array([_largest_beta_that_reaches(float(distance)) for distance in range(1000)])
 
 
 @compiled(allocates=False)
-def touch_discs(s, n, lanes, world, objects):
+def touch_discs(s, n, lanes, world, beta_sines, objects):
     """Resolve the discs of the lanes marked in NEAR; a motionless arm changes nothing."""
     for i in range(lanes):
         if n[NEAR + i] == 0:
             continue
         target = objects[n[TRIAL + i]]
         touch, collided = 0, 0
-        left_of = LARGEST_TIP_OFFSET + world.side_reach
+        # Seen along S1, S2's tip lies beta / 3 to the left at the most.
+        left_of = (s[BETA + i] - s[BEND + i]) / 3.0 + world.side_reach
         for disc in range(N_OBJECTS):
             at = disc * N_LANES + i
             if -world.side_reach < s[BEARING + at] - s[ALPHA + i] < left_of:
-                _resolve(s, n, i, at, world)
+                _resolve(s, n, i, at, world, beta_sines)
             else:
                 n[SIDE + at] = NONE
             touch |= n[SIDE + at]
@@ -68,17 +79,23 @@ def touch_discs(s, n, lanes, world, objects):
 
 
 @compiled(allocates=False)
-def _resolve(s, n, i, at, world):
-    """Move one disc with or out of S2's way through the sub-steps of this step's motion."""
-    radius = world.radius
+def _resolve(s, n, i, at, world, beta_sines):
+    """Move one disc with or out of S2's way through the sub-steps of this step's motion.
+
+    Gaps are compared by their squares.
+    """
     sine, cosine = sin_cos(s[BEARING + at] - (s[ALPHA + i] - s[TURN + i]))
     x, y = s[DISTANCE + at] * cosine, s[DISTANCE + at] * sine
-    sin_beta, cos_beta = sin_cos(s[BETA + i] - s[BEND + i])
+    key = beta_key(s[BETA + i] - s[BEND + i])
+    sin_beta, cos_beta = beta_sines[key, 0], beta_sines[key, 1]
+    side, moved = n[SIDE + at], False
+    u0, v0 = _to_s2(x, y, sin_beta, cos_beta)
+    beyond = _beyond(u0)
+    if side == NONE and beyond * beyond + v0 * v0 > world.safe_gap_squared:
+        return
     # In S1's frame a resting disc turns the other way.
     sine, cosine = _sub_step(-s[TURN + i], world)
     sin_bend, cos_bend = _sub_step(s[BEND + i], world)
-    side, moved = n[SIDE + at], False
-    u0, v0 = _to_s2(x, y, sin_beta, cos_beta)
     for _ in range(SUB_STEPS):
         sin_beta, cos_beta = (
             sin_beta * cos_bend + cos_beta * sin_bend,
@@ -87,18 +104,18 @@ def _resolve(s, n, i, at, world):
         x, y = x * cosine - y * sine, x * sine + y * cosine
         u, v = _to_s2(x, y, sin_beta, cos_beta)
         beyond = _beyond(u)
-        gap = sqrt(beyond * beyond + v * v)
-        if gap < radius - PENETRATION_TOLERANCE:
+        gap_squared = beyond * beyond + v * v
+        if gap_squared < world.hit_gap_squared:
             if side != NONE:
                 u, v = u0, v0
             else:
                 side = RIGHT if v0 < 0.0 else LEFT
-                v = sqrt(radius * radius - beyond * beyond)
+                v = sqrt(world.radius * world.radius - beyond * beyond)
                 v = -v if side == RIGHT else v
             x = S1_LENGTH + u * cos_beta - v * sin_beta
             y = u * sin_beta + v * cos_beta
             moved = True
-        elif gap <= radius + TOUCH_TOLERANCE:
+        elif gap_squared <= world.touch_gap_squared:
             side = RIGHT if v < 0.0 else LEFT
         else:
             side = NONE
@@ -127,18 +144,7 @@ def place_disc(s, at, bearing_deg, distance, world):
 def set_limit(s, i, world):
     """Work out from which beta on S2 may meet a disc of lane i within a step."""
     nearest = min(s[DISTANCE + i], s[DISTANCE + N_LANES + i], s[DISTANCE + 2 * N_LANES + i])
-    s[LIMIT + i] = _largest_beta_that_reaches(nearest - world.radius - 1e-3) + world.turn
-
-
-@compiled(allocates=False)
-def _largest_beta_that_reaches(distance):
-    """The beta [deg] at which S2's tip is so far from J1 [cm]; above 90 if it always is, 0 if never."""
-    cosine = (distance * distance - S1_LENGTH * S1_LENGTH - S2_LENGTH * S2_LENGTH) / (
-        2.0 * S1_LENGTH * S2_LENGTH
-    )
-    if cosine >= 1.0:
-        return 0.0
-    return 180.0 if cosine <= 0.0 else bearing(cosine, sqrt(1.0 - cosine * cosine))
+    s[LIMIT + i] = LARGEST_BETA[int(nearest - world.radius)] + world.turn
 
 
 @compiled(allocates=False)

@@ -1,6 +1,9 @@
 """Sense, think and turn, for all lanes at once (spec sections 4 and 5)."""
 
+from typing import NamedTuple
+
 import numpy as np
+from numpy.typing import NDArray
 
 from arm2d.arithmetic import sigmoid
 from arm2d.compiling import compiled
@@ -32,7 +35,7 @@ from arm2d.kernel.lanes import (
     Y,
     Z,
 )
-from arm2d.kernel.world import BETA_KEYS_PER_DEGREE
+from arm2d.kernel.world import beta_key
 
 # Places of the inputs in spec section 4, from 0.
 FIRST_CAMERA_INPUT = 2
@@ -52,19 +55,33 @@ GAIN = 83
 N_CAMERA_CODES = 512
 
 
+class Drives(NamedTuple):
+    """What each state of the inputs drives in a network's inter-neurons; rows of three and a 0.
+
+    Attributes:
+        touch: [4, ROW] by the code of I1, I2.
+        camera: [512, ROW] by the code of I3..I11.
+        bend: [N_BETA_KEYS, ROW] by the key of beta.
+        words: [4, 3, ROW] by action and object.
+    """
+
+    touch: NDArray[np.float64]
+    camera: NDArray[np.float64]
+    bend: NDArray[np.float64]
+    words: NDArray[np.float64]
+
+
 @compiled
-def tabulate_drives(network, betas, codes, touch, camera, bend, words):
+def tabulate_drives(network, betas, codes, drives):
     """Fill in what each state of each kind of input adds to the three inter-neurons.
 
     Args:
         network: [84] parameters in the order of the genes.
         betas: [B], the values of beta [deg].
         codes: [7, 3], the words' codes: three objects, then four actions.
-        touch: [4, 4] by the code of I1, I2; the last column of each table stays 0.
-        camera: [512, 4] by the code of I3..I11.
-        bend: [901, 4] by the key of beta.
-        words: [4, 3, 4] by action and object.
+        drives: `Drives` of this network.
     """
+    touch, camera, bend, words = drives
     bias, gain = network[INPUT_BIAS], network[GAIN]
     off, on = sigmoid(bias), sigmoid(gain + bias)
     weights = network[: N_INPUTS * N_INTER].reshape(N_INPUTS, N_INTER)
@@ -123,12 +140,6 @@ def _sector_bits(low, high):
     middle = (low <= MIDDLE_SECTOR_HALF_WIDTH) & (high >= -MIDDLE_SECTOR_HALF_WIDTH)
     last = (low <= VIEW_HALF_WIDTH) & (high > MIDDLE_SECTOR_HALF_WIDTH)
     return (0o001 if first else 0) | (0o010 if middle else 0) | (0o100 if last else 0)
-
-
-@compiled(allocates=False)
-def beta_key(beta):
-    """The row of a value of beta [deg] in the table `bend`."""
-    return np.uint64(beta * BETA_KEYS_PER_DEGREE + 0.5)
 
 
 @compiled(allocates=False)

@@ -13,13 +13,14 @@ from arm2d.kernel.contact import place_disc, set_limit, touch_discs
 from arm2d.kernel.controller import (
     INTER_BIAS,
     N_CAMERA_CODES,
+    Drives,
     gather_drives,
     sense_camera,
     tabulate_drives,
     think,
     turn,
 )
-from arm2d.kernel.lanes import BLOCK, N_FLOAT_FIELDS, N_INTEGER_FIELDS, N_LANES
+from arm2d.kernel.lanes import BLOCK, N_FLOAT_FIELDS, N_INTEGER_FIELDS, N_LANES, ROW
 from arm2d.kernel.scores import (
     final_scores,
     offset_from_target,
@@ -78,52 +79,60 @@ RECORD_CHANGED: Final = 17
 RECORD_COLUMNS: Final = 18
 
 
+class _Lanes(NamedTuple):
+    """The flat arrays of arm2d.kernel.lanes."""
+
+    s: NDArray[np.float64]
+    n: NDArray[np.int64]
+    d: NDArray[np.float64]
+
+
 @compiled(nogil=True)
-def run_population(networks, trials, world, betas, codes, outcomes, recording):
+def run_population(networks, trials, world, tables, outcomes, recording):
     """Run all trials with every network, one network after the other.
 
     Args:
         networks: [P, 84] parameters in the order of the genes.
         trials: `TrialArrays` of T trials.
-        world: `World` of the readings.
-        betas: [B], the values that beta can take [deg].
-        codes: [7, 3], the words' codes: three objects, then four actions.
+        world: `World` and
+        tables: `WorldTables` of the readings.
         outcomes: `Outcomes` to be filled in.
         recording: [K, RECORD_COLUMNS] for a single trial of a single network, else [0, RECORD_COLUMNS].
     """
-    s = np.zeros(N_FLOAT_FIELDS * N_LANES)
-    n = np.zeros(N_INTEGER_FIELDS * N_LANES, np.int64)
-    d = np.zeros(at.ROW * N_LANES)
-    touch, camera = np.zeros((4, at.ROW)), np.zeros((N_CAMERA_CODES, at.ROW))
-    bend, words = np.zeros((N_BETA_KEYS, at.ROW)), np.zeros((4, N_OBJECTS, at.ROW))
-    changing = np.any(trials.delay != NO_CHANGE)
+    lanes = _Lanes(
+        np.zeros(N_FLOAT_FIELDS * N_LANES),
+        np.zeros(N_INTEGER_FIELDS * N_LANES, np.int64),
+        np.zeros(ROW * N_LANES),
+    )
+    drives = Drives(
+        np.zeros((4, ROW)),
+        np.zeros((N_CAMERA_CODES, ROW)),
+        np.zeros((N_BETA_KEYS, ROW)),
+        np.zeros((4, N_OBJECTS, ROW)),
+    )
     for p in range(len(networks)):
-        tabulate_drives(networks[p], betas, codes, touch, camera, bend, words)
-        _run_network(
-            p, networks[p], trials, world, s, n, d, touch, camera, bend, words, outcomes, changing, recording
-        )
+        tabulate_drives(networks[p], tables.betas, tables.codes, drives)
+        _run_network(p, networks[p], trials, world, tables, lanes, drives, outcomes, recording)
 
 
 @compiled(allocates=False)
-def _run_network(
-    p, network, trials, world, s, n, d, touch, camera, bend, words, outcomes, changing, recording
-):
+def _run_network(p, network, trials, world, tables, lanes, drives, outcomes, recording):
     """Run all trials with one network, N_LANES at a time."""
-    n_trials = len(trials.action)
-    objects, keep, turn_size = trials.object, world.keep, world.turn
-    white_right, white_left = world.white_right, world.white_left
+    s, n, d = lanes
+    touch, camera, bend, words = drives
+    n_trials, objects, changing = len(trials.action), trials.object, _any_change(trials.delay)
     active, waiting = 0, 0
     while active < N_LANES and waiting < n_trials:
         _start(s, n, d, active, waiting, network, trials, world, words)
         active, waiting = active + 1, waiting + 1
     steps = 0
     while active > 0:
-        lanes = (active + BLOCK - 1) // BLOCK * BLOCK
-        sense_camera(s, n, lanes, white_right, white_left)
-        gather_drives(s, n, d, lanes, touch, camera, bend)
-        think(s, lanes, network)
-        if turn(s, n, lanes, network, turn_size) > 0:
-            touch_discs(s, n, active, world, objects)
+        width = (active + BLOCK - 1) // BLOCK * BLOCK
+        sense_camera(s, n, width, world.white_right, world.white_left)
+        gather_drives(s, n, d, width, touch, camera, bend)
+        think(s, width, network)
+        if turn(s, n, width, network, world.turn) > 0:
+            touch_discs(s, n, active, world, tables.beta_sines, objects)
         if steps < len(recording):
             _record(s, n, recording[steps])
         if world.best_stretch:
@@ -131,7 +140,7 @@ def _run_network(
         if changing:
             _change_words(s, n, d, active, trials, words)
         steps += 1
-        if score_step(s, n, lanes, keep) == 0:
+        if score_step(s, n, width, world.keep) == 0:
             continue
         i = 0
         while i < active:
@@ -145,6 +154,15 @@ def _run_network(
             else:
                 active -= 1
                 _copy_lane(s, n, d, active, i)
+
+
+@compiled(allocates=False)
+def _any_change(delays):
+    """Whether the words change in any trial."""
+    count = 0
+    for delay in delays:
+        count += delay != NO_CHANGE
+    return count > 0
 
 
 @compiled(allocates=False)
@@ -179,7 +197,7 @@ def _start(s, n, d, i, trial, network, trials, world, words):
 def _hear(d, i, instruction, words):
     """Let lane i hear an instruction (action, object)."""
     for j in range(N_INTER):
-        d[at.ROW * i + j] = words[instruction[0], instruction[1], j]
+        d[ROW * i + j] = words[instruction[0], instruction[1], j]
 
 
 @compiled(allocates=False)
@@ -215,8 +233,8 @@ def _copy_lane(s, n, d, source, target):
     """Move a trial to another lane."""
     for field in range(N_FLOAT_FIELDS):
         s[field * N_LANES + target] = s[field * N_LANES + source]
-    for j in range(at.ROW):
-        d[at.ROW * target + j] = d[at.ROW * source + j]
+    for j in range(ROW):
+        d[ROW * target + j] = d[ROW * source + j]
     for field in range(N_INTEGER_FIELDS):
         n[field * N_LANES + target] = n[field * N_LANES + source]
 

@@ -10,11 +10,18 @@ from numpy.typing import NDArray
 
 from arm2d import constants as c
 from arm2d.arithmetic import sin_cos
+from arm2d.compiling import compiled
+from arm2d.instructions import ACTION_CODES, OBJECT_CODES, ActionWord, ObjectWord
 from arm2d.readings import Readings
 
 # Values of beta are told apart by their whole tenths of a degree.
 BETA_KEYS_PER_DEGREE: Final = 10.0
 N_BETA_KEYS: Final = 901
+
+# [7, 3]: three object words, then four action words.
+WORD_CODES = np.array(
+    [*(OBJECT_CODES[each] for each in ObjectWord), *(ACTION_CODES[each] for each in ActionWord)]
+)
 
 
 class World(NamedTuple):
@@ -36,6 +43,9 @@ class World(NamedTuple):
         strict_success: Whether success needs F3 > 0.99 too.
         quarter_sine: Sine and
         quarter_cosine: cosine of a sub-step of a full turn.
+        hit_gap_squared: A disc whose gap squared is below this is hit [cm^2].
+        touch_gap_squared: One whose gap squared is at most this, and not hit, is touched.
+        safe_gap_squared: One whose gap squared is above this cannot be met within a step.
         side_reach: How far to S1's right, or beyond S2's tip to its left, a disc's centre may be and
             still meet S2 in one step [deg].
     """
@@ -55,6 +65,9 @@ class World(NamedTuple):
     strict_success: bool
     quarter_sine: float
     quarter_cosine: float
+    hit_gap_squared: float
+    touch_gap_squared: float
+    safe_gap_squared: float
     side_reach: float
 
 
@@ -63,6 +76,10 @@ def world_of(readings: Readings) -> World:
     """The world that these readings describe."""
     near = readings.bound_vision == "near"
     sine, cosine = sin_cos(readings.turn_size / c.SUB_STEPS)
+    radius = readings.object_radius
+    # No point of S2 is farther from J1 than its tip, none of a disc it meets farther than this.
+    farthest = c.S1_LENGTH + c.S2_LENGTH + 2.0 * radius
+    motion = np.radians(readings.turn_size) * (farthest + c.S2_LENGTH)
     closest_centre = c.S1_LENGTH - readings.object_radius
     # asin(rho / distance) <= 1.6 rho / distance for these ratios; one step's turns of both joints besides.
     side_reach = np.degrees(1.6 * readings.object_radius / closest_centre) + 3.0 * readings.turn_size
@@ -82,19 +99,49 @@ def world_of(readings: Readings) -> World:
         strict_success=readings.success == "f1_f2_f3",
         quarter_sine=sine,
         quarter_cosine=cosine,
+        hit_gap_squared=(radius - c.PENETRATION_TOLERANCE) ** 2,
+        touch_gap_squared=(radius + c.TOUCH_TOLERANCE) ** 2,
+        safe_gap_squared=float(radius + motion) ** 2,
         side_reach=float(side_reach),
     )
 
 
+class WorldTables(NamedTuple):
+    """The arrays that go with a `World`.
+
+    Attributes:
+        betas: [B], every value that beta can take in a trial [deg].
+        beta_sines: [N_BETA_KEYS, 2], their sines and cosines, each at its key.
+        codes: [7, 3], the words' codes: three objects, then four actions.
+    """
+
+    betas: NDArray[np.float64]
+    beta_sines: NDArray[np.float64]
+    codes: NDArray[np.int64]
+
+
 @lru_cache(maxsize=64)
-def reachable_betas(readings: Readings) -> NDArray[np.float64]:
-    """All values that beta can take in a trial [deg], [B]."""
-    turn = readings.turn_size
+def tables_of(readings: Readings) -> WorldTables:
+    """The tables of the world that these readings describe."""
+    betas, sines = _reachable_betas(readings.turn_size), np.zeros((N_BETA_KEYS, 2))
+    for beta in betas:
+        sines[int(beta_key(beta))] = sin_cos(beta)
+    return WorldTables(betas, sines, WORD_CODES)
+
+
+def _reachable_betas(turn: float) -> NDArray[np.float64]:
+    """All values that beta can take from 90 degrees on [deg], [B]."""
     values = [c.BETA_MAX]
     for value in values:  # grows while it is walked
         for successor in (max(c.BETA_MIN, value - turn), min(c.BETA_MAX, value + turn)):
             if successor not in values:
                 values.append(successor)
-    keys = {int(value * BETA_KEYS_PER_DEGREE + 0.5) for value in values}
+    keys = {int(beta_key(value)) for value in values}
     assert len(keys) == len(values), "two values of beta share a key"  # noqa: S101 - our own mistake
     return np.array(values)
+
+
+@compiled(allocates=False)
+def beta_key(beta):
+    """Where tables hold a value of beta [deg]: its whole tenths of a degree."""
+    return np.uint64(beta * BETA_KEYS_PER_DEGREE + 0.5)
