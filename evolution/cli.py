@@ -14,11 +14,17 @@ import tyro
 from tyro.conf import subcommand
 
 from arm2d import Readings
+from evolution.commands.evaluate import Evaluate
 from evolution.commands.evolve import Evolve, UncheckedReadings
+from evolution.commands.plot import Plot
+from evolution.commands.port import Port
 from evolution.commands.repair import Repair
 
 DESCRIPTION: Final = "An arm that obeys two-word instructions: evolve its controllers, test them, show them."
 BAD_INPUT: Final = 2
+INTERRUPTED: Final = 130
+
+Command = Evolve | Evaluate | Plot | Port | Repair
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -32,10 +38,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"wordarm: {_sentence(error)}", file=sys.stderr)
         return BAD_INPUT
     except KeyboardInterrupt:
-        return 130
+        return INTERRUPTED
 
 
-def parse(arguments: Sequence[str]) -> Evolve | Repair:
+def parse(arguments: Sequence[str]) -> Command:
     """The command that the arguments ask for; the option parser exits with code 2 where it finds none."""
     command = _parse(arguments, Evolve())
     if isinstance(command, Evolve) and command.preset != "default":
@@ -45,12 +51,15 @@ def parse(arguments: Sequence[str]) -> Evolve | Repair:
     return command
 
 
-def _parse(arguments: Sequence[str], evolve: Evolve) -> Evolve | Repair:
+def _parse(arguments: Sequence[str], evolve: Evolve) -> Command:
     """Parse, with the defaults of `wordarm evolve` as given."""
     commands = (
         Annotated[Evolve, subcommand("evolve", default=evolve)]
+        | Annotated[Evaluate, subcommand("evaluate")]
+        | Annotated[Plot, subcommand("plot")]
+        | Annotated[Port, subcommand("port")]
         | Annotated[Repair, subcommand("repair")]
-    )  # fmt: skip
+    )
     return tyro.cli(commands, prog="wordarm", description=DESCRIPTION, args=arguments)  # pyright: ignore
 
 

@@ -7,7 +7,6 @@ belongs to, so that a file of another run is not taken for one of this.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -144,20 +143,6 @@ class RunFolder:
             return history_from_arrays(path, self.read_arrays(path), span, self.config.settings.population)
         except DamagedFileError as error:
             raise self.damaged(span, error.found) from None
-
-    def histories(self) -> Iterator[History]:
-        """All that is recorded: part after part, then what the checkpoint holds beyond them.
-
-        Raises:
-            DamagedFileError: If one of the files is damaged.
-        """
-        spans = self.finished_spans()
-        for span in spans:
-            yield self.read_part(span)
-        if len(spans) < len(self.spans) and (checkpoint := self.read_checkpoint()):
-            end = spans[-1].stop if spans else 0
-            if len(checkpoint.unfinished) and checkpoint.unfinished.generations[0] == end:
-                yield checkpoint.unfinished
 
     def write_part(self, span: range, history: History) -> None:
         """Keep the generations of `span` for good."""

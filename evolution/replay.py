@@ -12,6 +12,7 @@ from evolution.config import RunConfig
 from evolution.folder import RunFolder
 from evolution.history import History
 from evolution.population import Population, first_population, next_population
+from evolution.recorded import recorded_histories
 from evolution.settings import N_BEST
 
 
@@ -58,7 +59,7 @@ def population_at(folder: RunFolder, generation: int) -> Population:
         DamagedFileError: If a part up to that generation is damaged.
     """
     population = first_population(folder.config)
-    for history in folder.histories():
+    for history in recorded_histories(folder):
         if population.generation == generation:
             return population
         population = replay(population, history[: generation - population.generation], folder.config)

@@ -1,0 +1,45 @@
+"""`wordarm plot`: the fitness of a run, finished or not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tyro.conf import Positional
+
+if TYPE_CHECKING:
+    from evolution.folder import RunFolder
+
+
+@dataclass(frozen=True)
+class Plot:
+    """Draw best and mean fitness of a run over its generations, even while it is going on."""
+
+    folder: Positional[Path]
+    """Run folder."""
+
+    output: Path | None = None
+    """Folder for the figure. By default `evaluation` in the run folder."""
+
+    def run(self) -> int:
+        """Draw what is recorded so far."""
+        from evolution.folder import RunFolder
+
+        run_folder = RunFolder.open(self.folder)
+        output = self.output or self.folder / "evaluation"
+        output.mkdir(parents=True, exist_ok=True)
+        for path in write_fitness_curve(run_folder, output):
+            print(path)
+        return 0
+
+
+def write_fitness_curve(run_folder: RunFolder, output: Path) -> list[Path]:
+    """Write fitness.png and fitness.svg; their paths."""
+    from evolution.figures import fitness_curve, save_figure
+    from evolution.recorded import recorded_history
+
+    history = recorded_history(run_folder)
+    config = run_folder.config
+    origin = f"{config.condition}, seed {config.seed}, {len(history)} generations"
+    return save_figure(fitness_curve(history, config.condition, origin), output / "fitness")

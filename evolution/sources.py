@@ -1,0 +1,177 @@
+"""From what a user names (a run, a genotype file, a shipped champion) to a genotype and its world."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import Condition, Readings, check_genotypes
+from evolution.algorithm import rank as ranking
+from evolution.config import RunConfig
+from evolution.folder import CHAMPIONS, RunFolder
+from evolution.recorded import recorded_generation, recorded_histories
+from evolution.replay import population_at
+from evolution.settings import N_BEST
+
+SHIPPED: Final = Path(__file__).parent / "champions"
+# Far above any file of genotypes; keeps a mistaken or malicious file from filling the memory.
+LARGEST_FILE: Final = 64 * 2**20
+
+
+@dataclass(frozen=True)
+class Source:
+    """A genotype and what is known of it.
+
+    Attributes:
+        genotype: [84].
+        condition: Whose instructions it hears.
+        readings: The world it evolved in.
+        origin: Where it comes from, for people.
+        name: The same, fit for a file name.
+        folder: The run folder it was taken from, if it was.
+    """
+
+    genotype: NDArray[np.float64]
+    condition: Condition
+    readings: Readings
+    origin: str
+    name: str
+    folder: RunFolder | None = None
+
+
+def find_source(
+    text: str, *, generation: int | None = None, rank: int = 0, condition: Condition | None = None
+) -> Source:
+    """The genotype that a user means.
+
+    Args:
+        text: A run folder, a genotype file (.npz or .npy), or the name of a shipped champion.
+        generation: Of the run; by default its champions are meant.
+        rank: 0 for the best of the generation, of the champions, or of the file.
+        condition: For files that do not tell; with-indicate if none is given.
+
+    Raises:
+        ValueError: If there is no such thing, or it is not what it should be.
+    """
+    path = Path(text)
+    if path.is_dir():
+        return _of_known_condition(_from_run(RunFolder.open(path), generation, rank), condition)
+    if generation is not None:
+        raise ValueError(f"generation {generation} needs a run folder, which {text} is not")
+    if path.is_file():
+        return _from_file(path, rank, condition)
+    if (SHIPPED / f"{text}.npz").is_file():
+        return _from_file(SHIPPED / f"{text}.npz", rank, condition)
+    names = ", ".join(sorted(each.stem for each in SHIPPED.glob("*.npz"))) or "none yet"
+    raise ValueError(
+        f"there is no {text!r}; give a run folder, a genotype file (.npz, .npy) "
+        f"or a shipped champion ({names})"
+    )
+
+
+def _from_run(folder: RunFolder, generation: int | None, rank: int) -> Source:
+    """A champion of the run; or the genotype of some rank in a generation."""
+    if generation is None and (folder.path / CHAMPIONS).exists():
+        arrays = folder.read_arrays(folder.path / CHAMPIONS)
+        return _pick(folder.path / CHAMPIONS, arrays, rank, folder.config, folder)
+    if generation is None:
+        generation = sum(len(each) for each in recorded_histories(folder)) - 1
+    genotype = _of_generation(folder, generation, rank)
+    return Source(
+        genotype,
+        folder.config.condition,
+        folder.config.readings,
+        _describe(folder.config, generation, rank),
+        f"generation-{generation:06d}-rank-{rank}",
+        folder,
+    )
+
+
+def _of_generation(folder: RunFolder, generation: int, rank: int) -> NDArray[np.float64]:
+    """The genotype [84] of some rank; beyond the five best that are kept, it is bred again."""
+    scored = recorded_generation(folder, generation)
+    n_genotypes = scored.fitness.shape[1]
+    if not 0 <= rank < n_genotypes:
+        raise ValueError(f"rank {rank} does not exist; the generation has ranks 0 to {n_genotypes - 1}")
+    if rank < N_BEST:
+        return scored.best_genotypes[0, rank]
+    return population_at(folder, generation).genotypes[ranking(scored.fitness[0])[rank]]
+
+
+def _from_file(path: Path, rank: int, condition: Condition | None) -> Source:
+    """A genotype of a file, with the config it carries or, if it carries none, the default readings."""
+    arrays = _read_genotype_file(path)
+    if "config" not in arrays:
+        config = RunConfig(condition or Condition.WITH_INDICATE)
+        return _pick(path, arrays, rank, config, None)
+    try:
+        config = RunConfig.from_toml(str(arrays["config"]))
+    except ValueError as error:
+        raise ValueError(f"{path} carries a config that cannot be read: {error}") from None
+    return _of_known_condition(_pick(path, arrays, rank, config, None), condition)
+
+
+def _read_genotype_file(path: Path) -> Mapping[str, NDArray]:
+    """Named arrays of an .npz, or the only one of an .npy as "genotypes"."""
+    refusal = f"{path} is not a genotype file: give an .npz with an array genotypes [P, 84], or an .npy"
+    if path.stat().st_size > LARGEST_FILE:
+        raise ValueError(f"{refusal}; this file is larger than {LARGEST_FILE // 2**20} MB")
+    data = io.BytesIO(path.read_bytes())
+    try:
+        if zipfile.is_zipfile(data):
+            return _read_archive(data)
+        data.seek(0)
+        return {"genotypes": np.lib.format.read_array(data, allow_pickle=False)}
+    except Exception as error:  # whatever a broken or foreign file brings about in the readers
+        raise ValueError(f"{refusal} ({error})") from None
+
+
+def _read_archive(data: io.BytesIO) -> dict[str, NDArray]:
+    """The arrays of an .npz that does not swell when unpacked."""
+    with zipfile.ZipFile(data) as archive:
+        if sum(each.file_size for each in archive.infolist()) > LARGEST_FILE:
+            raise ValueError(f"its content is larger than {LARGEST_FILE // 2**20} MB")
+    data.seek(0)
+    with np.load(data, allow_pickle=False) as arrays:
+        return {name: arrays[name] for name in arrays.files}
+
+
+def _pick(
+    path: Path, arrays: Mapping[str, NDArray], rank: int, config: RunConfig, folder: RunFolder | None
+) -> Source:
+    """One of the genotypes of a file."""
+    name = next((each for each in ("genotypes", "genotype") if each in arrays), None)
+    if name is None:
+        raise ValueError(f"{path} has no array genotypes; it has {', '.join(arrays) or 'none'}")
+    try:
+        genotypes = check_genotypes(arrays[name])
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"{path}: {error}") from None
+    if not 0 <= rank < len(genotypes):
+        raise ValueError(f"rank {rank} does not exist in {path}; there are {len(genotypes)}, numbered from 0")
+    origin = f"{path.name}, number {rank}"
+    if {"config", "generations", "ranks"} <= arrays.keys():
+        origin = _describe(config, int(arrays["generations"][rank]), int(arrays["ranks"][rank]))
+    name = ("champion" if folder else path.stem) + (f"-{rank}" if rank else "")
+    return Source(genotypes[rank], config.condition, config.readings, origin, name, folder)
+
+
+def _describe(config: RunConfig, generation: int, rank: int) -> str:
+    """Where a genotype stood in its run."""
+    return f"{config.condition}, seed {config.seed}, generation {generation}, rank {rank}"
+
+
+def _of_known_condition(source: Source, condition: Condition | None) -> Source:
+    """Refuse another condition than the source's own."""
+    if condition not in (None, source.condition):
+        raise ValueError(
+            f"{source.origin} belongs to {source.condition}, not {condition}; leave --condition out"
+        )
+    return source
