@@ -122,9 +122,6 @@ def _parts(n: int, threads: int) -> list[slice]:
 
 def _record_of(trial: Trials, readings: Readings, rows: NDArray, scores: TrialScores) -> TrialRecord:
     """A record from the kernel's rows [K, RECORD_COLUMNS]."""
-    angles = np.radians(rows[:, loop.RECORD_BEARING : loop.RECORD_BEARING + 3])
-    distances = rows[:, loop.RECORD_DISTANCE : loop.RECORD_DISTANCE + 3]
-    discs = np.stack([distances * np.cos(angles), distances * np.sin(angles)], axis=-1)
     beta = np.concatenate([[c.BETA_MAX], rows[:, loop.RECORD_BETA]])
     sides = rows[:, loop.RECORD_SIDE : loop.RECORD_SIDE + 3].astype(np.int8)
     return TrialRecord(
@@ -132,13 +129,24 @@ def _record_of(trial: Trials, readings: Readings, rows: NDArray, scores: TrialSc
         readings=readings,
         alpha=np.concatenate([trial.alpha, rows[:, loop.RECORD_ALPHA]]),
         beta=beta,
-        discs=np.concatenate([trial.discs, discs]),
+        discs=np.concatenate([trial.discs, _centres_of(trial, rows)]),
         contact=np.concatenate([np.zeros((1, c.N_OBJECTS), np.int8), sides]),
         inputs=_inputs_of(trial, rows, beta),
         states=rows[:, loop.RECORD_STATE : loop.RECORD_STATE + c.N_INTER].copy(),
         turns=np.stack([rows[:, loop.RECORD_TURN], np.diff(beta)], axis=-1),
         scores=scores,
     )
+
+
+def _centres_of(trial: Trials, rows: NDArray) -> NDArray[np.float64]:
+    """The discs' centres after every step, [K, 3, 2]; a disc that never moved keeps its bits."""
+    start = _arrays_of(trial)
+    bearings = rows[:, loop.RECORD_BEARING : loop.RECORD_BEARING + 3]
+    distances = rows[:, loop.RECORD_DISTANCE : loop.RECORD_DISTANCE + 3]
+    angles = np.radians(bearings)
+    centres = np.stack([distances * np.cos(angles), distances * np.sin(angles)], axis=-1)
+    unmoved = (bearings == start.bearing) & (distances == start.distance)
+    return np.where(unmoved[..., np.newaxis], trial.discs, centres)
 
 
 def _inputs_of(trial: Trials, rows: NDArray, beta: NDArray) -> NDArray[np.float64]:

@@ -48,5 +48,7 @@ def test_condition_is_read_in_any_case(text):
 
 
 def test_unknown_condition_lists_the_known_ones():
-    with pytest.raises(ValueError, match="unknown condition 'with-grasp'; there are with-indicate, with-ignore"):
+    with pytest.raises(
+        ValueError, match="unknown condition 'with-grasp'; there are with-indicate, with-ignore"
+    ):
         Condition.parse("with-grasp")
