@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import constants as c
 from arm2d.arithmetic import bearing
+from arm2d.compiling import compiled
 from arm2d.controller import check_genotypes, decode_flat
 from arm2d.kernel import loop
 from arm2d.kernel.world import WORD_CODES, tables_of, world_of
@@ -48,7 +49,7 @@ def run_trials(
     outcomes = _empty_outcomes(len(genes), len(trials))
 
     def run(part: slice) -> None:
-        own = loop.Outcomes(*(each[part] for each in outcomes))
+        own = loop.Outcomes._make(each[part] for each in outcomes)
         loop.run_population(networks[part], arrays, world, tables, own, NO_RECORDING)
 
     parts = _parts(len(genes), threads)
@@ -90,7 +91,6 @@ def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None =
 def _arrays_of(trials: Trials) -> loop.TrialArrays:
     """The trials as the kernel takes them: discs by bearing and distance, and the words heard."""
     x, y = trials.discs[..., 0], trials.discs[..., 1]
-    bearings = [bearing(*point) for point in trials.discs.reshape(-1, 2)]
     heard = np.stack([trials.actions, trials.objects], axis=-1)
     words, delays = np.stack([heard, heard], axis=1), np.full(len(trials), loop.NO_CHANGE)
     if (changes := trials.changes) is not None:
@@ -101,17 +101,32 @@ def _arrays_of(trials: Trials) -> loop.TrialArrays:
         action=trials.actions,
         object=trials.objects,
         alpha=trials.alpha,
-        bearing=np.reshape(bearings, (-1, c.N_OBJECTS)),
+        bearing=_bearings_of(trials.discs),
         distance=np.sqrt(x * x + y * y),
         heard=words,
         delay=delays,
     )
 
 
+@compiled
+def _bearings_of(centres: NDArray) -> NDArray:
+    """Bearings [T, 3] of the discs' centres [T, 3, 2]."""
+    bearings = np.empty(centres.shape[:2])
+    for trial in range(centres.shape[0]):
+        for disc in range(centres.shape[1]):
+            bearings[trial, disc] = bearing(centres[trial, disc, 0], centres[trial, disc, 1])
+    return bearings
+
+
 def _empty_outcomes(n_genotypes: int, n_trials: int) -> loop.Outcomes:
     shape = (n_genotypes, n_trials)
-    floats = [np.empty(shape) for _ in range(3)]
-    return loop.Outcomes(*floats, np.empty(shape, np.bool_), np.empty(shape, np.int64))
+    return loop.Outcomes(
+        f1=np.empty(shape),
+        f2=np.empty(shape),
+        f3=np.empty(shape),
+        success=np.empty(shape, np.bool_),
+        steps=np.empty(shape, np.int64),
+    )
 
 
 def _parts(n: int, threads: int) -> list[slice]:
@@ -163,4 +178,5 @@ def _inputs_of(trial: Trials, rows: NDArray, beta: NDArray) -> NDArray[np.float6
             WORD_CODES[3 + heard[:, 0]],
         ],
         axis=1,
+        dtype=np.float64,
     )

@@ -55,7 +55,7 @@ LARGEST_BETA = np.array([_largest_beta_that_reaches(float(distance)) for distanc
 
 @compiled(allocates=False)
 def touch_discs(s, n, lanes, world, beta_sines, objects):
-    """Resolve the discs of the lanes marked in NEAR; a motionless arm changes nothing."""
+    """Resolve the discs of the lanes marked in NEAR; the others' cannot have changed."""
     for i in range(lanes):
         if n[NEAR + i] == 0:
             continue

@@ -30,6 +30,7 @@ from arm2d.kernel.lanes import (
     N_LANES,
     NEAR,
     ROW,
+    STEP,
     TOUCH,
     TURN,
     Y,
@@ -230,7 +231,8 @@ def turn(s, n, lanes, network, turn_size):
         bent = after - beta
         s[BETA + i] = after
         s[BEND + i] = bent
-        may_meet = 1 if (beta < s[LIMIT + i]) & ((turned != 0.0) | (bent != 0.0)) else 0
+        moved = (turned != 0.0) | (bent != 0.0) | (n[STEP + i] == 0)
+        may_meet = 1 if (beta < s[LIMIT + i]) & moved else 0
         n[NEAR + i] = may_meet
         near += may_meet
     return near

@@ -41,7 +41,7 @@ ROW: Final = 4
 # Fields of `n`.
 CAMERA: Final = 0 * N_LANES  # nine bits, I3 lowest
 TOUCH: Final = 1 * N_LANES  # two bits, I1 (right) lowest
-NEAR: Final = 2 * N_LANES  # 1 if the arm moved and may meet a disc
+NEAR: Final = 2 * N_LANES  # 1 if the arm moved, or has just started, and may meet a disc
 SIDE: Final = 3 * N_LANES  # three fields: NONE, RIGHT or LEFT, where each disc touches
 TARGET_SIDE: Final = 6 * N_LANES  # the same of the target
 COLLIDED: Final = 7 * N_LANES  # 1 if a disc that is not the target touches S2

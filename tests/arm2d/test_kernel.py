@@ -88,6 +88,18 @@ def test_kernel_and_reference_agree_where_words_change_in_mid_trial(evolved):
     assert not np.array_equal(run_trials(genotypes, trials, Readings()).fitness, unchanged.fitness)
 
 
+def test_kernel_and_reference_agree_where_discs_start_at_or_in_s2(evolved):
+    rng = np.random.default_rng(10)
+    drawn = draw_trials(Condition.WITH_INDICATE.instructions, 2, Readings(), rng)
+    angles, distances = rng.uniform(50, 150, (2, len(drawn), 3))
+    distances = 100.0 + 0.2 * (distances - 50)
+    discs = distances[..., np.newaxis] * np.stack(
+        [np.cos(np.radians(angles)), np.sin(np.radians(angles))], -1
+    )
+    trials = Trials(drawn.actions, drawn.objects, drawn.alpha, discs)
+    assert not list(disagreements(genotypes_of(evolved, 12, rng), trials, Readings()))
+
+
 @pytest.fixture(scope="module")
 def population(evolved):
     rng = np.random.default_rng(9)
