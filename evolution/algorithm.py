@@ -41,8 +41,7 @@ def choose_parents(
     """
     order = rank(fitness)
     candidates = order[: settings.parents]
-    weights = _weights(fitness[candidates], readings)
-    bounds = np.add.accumulate(weights)
+    bounds = np.add.accumulate(_weights(fitness[candidates], readings))
     draws = rng.random(settings.population - settings.elites) * bounds[-1]  # [C]
     children = candidates[np.searchsorted(bounds, draws, side="right")]
     return np.concatenate([order[: settings.elites], children])
@@ -82,6 +81,6 @@ def mutate(
 
 def _weights(fitness: NDArray[np.float64], readings: Readings) -> NDArray[np.float64]:
     """What the chances of becoming a parent are proportional to."""
-    if not fitness.any():
-        return np.ones_like(fitness)
-    return fitness * fitness * fitness if readings.parent_scaling == "cubed" else fitness
+    weights = fitness * fitness * fitness if readings.parent_scaling == "cubed" else fitness
+    # Below the smallest normal number, products round to zero or up to the sum itself.
+    return weights if weights.sum() >= np.finfo(np.float64).tiny else np.ones_like(weights)

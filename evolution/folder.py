@@ -18,17 +18,23 @@ from arm2d.constants import N_GENES
 from evolution.config import RunConfig
 from evolution.history import History, check_array, history_from_arrays
 from evolution.population import Population
-from evolution.storage import DamagedFileError, read_arrays, verified_bytes, write_arrays, write_atomically
+from evolution.storage import (
+    DamagedFileError,
+    make_folder,
+    read_arrays,
+    verified_bytes,
+    write_arrays,
+    write_atomically,
+)
 
 GENERATIONS_PER_PART: Final = 100
-CONFIG, CHECKPOINT, CHAMPIONS, PARTS, META = (
-    "config.toml",
-    "checkpoint.npz",
-    "champions.npz",
-    "parts",
-    "meta.json",
-)
-OWN_FILES: Final = frozenset({CONFIG, CHECKPOINT, CHAMPIONS, PARTS, META, "lock"})
+CONFIG: Final = "config.toml"
+META: Final = "meta.json"
+PARTS: Final = "parts"
+CHECKPOINT: Final = "checkpoint.npz"
+CHAMPIONS: Final = "champions.npz"
+LOCK: Final = "lock"
+OWN_FILES: Final = {CONFIG, META, PARTS, CHECKPOINT, CHAMPIONS, LOCK}
 
 
 @dataclass(frozen=True)
@@ -82,20 +88,17 @@ class RunFolder:
 
     @classmethod
     def create(cls, path: Path, config: RunConfig) -> RunFolder:
-        """The folder of this run, made if need be.
+        """The folder of this run, with its config.toml.
 
         Raises:
             ValueError: If the folder holds another run, or other things.
             OSError: If it cannot be written.
         """
-        if (path / CONFIG).exists():
-            found = cls.open(path)
-            if differences := found.config.differences(config):
-                raise ValueError(f"{path} was started with {'; '.join(differences)}; choose a new directory")
-            return found
-        _check_free(path)
-        (path / PARTS).mkdir(parents=True, exist_ok=True)
-        write_atomically(path / CONFIG, config.to_toml().encode())
+        if not (path / CONFIG).exists():
+            refuse_other(path, config)
+            make_folder(path / PARTS)
+            write_atomically(path / CONFIG, config.to_toml().encode())
+        refuse_other(path, config)
         return cls(path, config)
 
     @property
@@ -206,10 +209,16 @@ class RunFolder:
         return next((span.start for span in self.spans if generation in span), generation)
 
 
-def _check_free(path: Path) -> None:
-    """Refuse a folder that holds other things than a run."""
-    if path.is_dir():
+def refuse_other(path: Path, config: RunConfig) -> None:
+    """Refuse, before anything is written, a folder of another run or of other things.
+
+    Raises:
+        ValueError: With the difference.
+    """
+    if (path / CONFIG).exists():
+        if differences := RunFolder.open(path).config.differences(config):
+            raise ValueError(f"{path} was started with {'; '.join(differences)}; choose a new directory")
+    elif path.is_dir():
         names = {each.name for each in path.iterdir() if not each.name.endswith(".tmp")}
-        strangers = sorted(names - OWN_FILES)
-        if strangers:
+        if strangers := sorted(names - OWN_FILES):
             raise ValueError(f"{path} holds {strangers[0]} but no run; choose a new directory")

@@ -7,9 +7,8 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Final
 
-LOCK: Final = "lock"
+from evolution.folder import LOCK
 
 
 class RunInUseError(ValueError):

@@ -11,13 +11,13 @@ from evolution import meta
 from evolution.algorithm import mean_in_order
 from evolution.champion import keep_champions
 from evolution.config import RunConfig
-from evolution.folder import CHAMPIONS, META, Checkpoint, RunFolder
+from evolution.folder import CHAMPIONS, META, Checkpoint, RunFolder, refuse_other
 from evolution.history import HistoryBuilder
 from evolution.lock import locked
 from evolution.population import first_population, next_population
 from evolution.replay import replay_part
 from evolution.scoring import score_population
-from evolution.storage import DamagedFileError
+from evolution.storage import DamagedFileError, make_folder
 
 
 @dataclass(frozen=True)
@@ -68,8 +68,10 @@ def evolve(path: Path, config: RunConfig, watcher: Watcher | None = None) -> int
         OSError: If it cannot be written; what was written before stays whole.
     """
     watcher = watcher or Watcher()
-    folder = RunFolder.create(path, config)
+    refuse_other(path, config)
+    make_folder(path)
     with locked(path):
+        folder = RunFolder.create(path, config)
         reached = resume(folder, watcher)
         if reached.population.generation < config.settings.generations:
             reached = _score_generations(folder, reached, watcher)

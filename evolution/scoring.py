@@ -26,8 +26,9 @@ def draw_evolution_trials(
     Raises:
         ValueError: If an instruction is not among those the condition lets agents experience.
     """
+    experienced = condition.experienced
     for each in instructions:
-        if each not in condition.experienced:
+        if each not in experienced:
             raise ValueError(
                 f"non-experienced instruction {each.action.name} {each.object.name} was drawn for evolution; "
                 "this would spoil the result"

@@ -34,6 +34,18 @@ class DamagedFileError(ValueError):
         super().__init__(f"{path} is damaged ({found})" + (f"; {next_move}" if next_move else ""))
 
 
+def make_folder(path: Path) -> None:
+    """Make a folder and those above it, as far as they are not there.
+
+    Raises:
+        OSError: If that is impossible.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OSError(f"{path} cannot be made: {error.strerror}; choose another folder") from None
+
+
 def write_atomically(path: Path, data: bytes) -> None:
     """Write a file so that a kill at any moment leaves either the old file or the new one.
 
@@ -47,10 +59,13 @@ def write_atomically(path: Path, data: bytes) -> None:
             file.flush()
             os.fsync(file.fileno())
         temporary.replace(path)
-    except BaseException:
+        _flush_directory(path.parent)
+    except OSError as error:
         temporary.unlink(missing_ok=True)
-        raise
-    _flush_directory(path.parent)
+        raise OSError(
+            f"{path} cannot be written: {error.strerror}; what was written before is whole: "
+            "put this right, then repeat the command"
+        ) from None
 
 
 def write_arrays(path: Path, arrays: Mapping[str, NDArray]) -> None:

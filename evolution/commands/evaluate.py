@@ -70,10 +70,10 @@ class Evaluate:
 def _write(source: Source, result: Evaluation, folder: Path) -> list[Path]:
     """Write figures and tables; their paths."""
     from evolution.figures import heat_map, save_figure
-    from evolution.storage import write_atomically
+    from evolution.storage import make_folder, write_atomically
     from evolution.tables import to_csv, to_json
 
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     paths = save_figure(heat_map(result, source.origin), folder / f"{source.name}-heat-map")
     for suffix, text in ((".csv", to_csv(result)), (".json", to_json(result, source))):
         paths.append(folder / f"{source.name}{suffix}")

@@ -25,10 +25,11 @@ class Plot:
     def run(self) -> int:
         """Draw what is recorded so far."""
         from evolution.folder import RunFolder
+        from evolution.storage import make_folder
 
         run_folder = RunFolder.open(self.folder)
         output = self.output or self.folder / "evaluation"
-        output.mkdir(parents=True, exist_ok=True)
+        make_folder(output)
         for path in write_fitness_curve(run_folder, output):
             print(path)
         return 0

@@ -1,0 +1,19 @@
+import shutil
+
+import pytest
+from small_runs import SMALL
+
+from evolution.run import evolve
+
+
+@pytest.fixture(scope="session")
+def finished_run(tmp_path_factory):
+    path = tmp_path_factory.mktemp("runs") / "finished"
+    assert evolve(path, SMALL) == 230
+    return path
+
+
+@pytest.fixture
+def run_copy(finished_run, tmp_path):
+    """A finished run that a test may damage."""
+    return shutil.copytree(finished_run, tmp_path / "run")

@@ -1,0 +1,163 @@
+import shutil
+
+import pytest
+from small_runs import SMALL, contents
+
+from evolution import repair as repair_module
+from evolution.folder import RunFolder
+from evolution.recorded import recorded_history
+from evolution.repair import repair
+from evolution.run import Watcher, evolve
+from evolution.storage import DamagedFileError, read_arrays, write_arrays
+
+FIRST, SECOND, LAST = "gen-000000-000099.npz", "gen-000100-000199.npz", "gen-000200-000229.npz"
+
+
+def truncate(path):
+    path.write_bytes(path.read_bytes()[:-1000])
+
+
+def flip(path):
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 4
+    path.write_bytes(data)
+
+
+def remove(path):
+    path.unlink()
+
+
+def empty(path):
+    path.write_bytes(b"")
+
+
+@pytest.mark.parametrize("part", [FIRST, SECOND, LAST])
+@pytest.mark.parametrize("damage", [truncate, flip, empty])
+def test_a_damaged_part_is_named_with_the_command_that_repairs(run_copy, part, damage):
+    damage(run_copy / "parts" / part)
+    first, last = int(part[4:10]), int(part[11:17])
+    sentence = rf"{part} is damaged .*; recompute generations {first} to {last} with: wordarm repair {run_copy}"
+    with pytest.raises(DamagedFileError, match=sentence):
+        evolve(run_copy, SMALL)
+    with pytest.raises(DamagedFileError, match=sentence):
+        recorded_history(RunFolder.open(run_copy))
+
+
+@pytest.mark.parametrize("part", [FIRST, SECOND])
+def test_a_part_missing_before_others_is_named(run_copy, part):
+    remove(run_copy / "parts" / part)
+    with pytest.raises(DamagedFileError, match=rf"{part} is damaged \(it is missing\); recompute"):
+        evolve(run_copy, SMALL)
+
+
+@pytest.mark.parametrize("damage", [truncate, flip, remove])
+def test_repaired_files_have_the_bits_they_had(finished_run, run_copy, damage):
+    for name in (f"parts/{FIRST}", f"parts/{SECOND}", "champions.npz"):
+        damage(run_copy / name)
+    notes = []
+    assert repair(run_copy, notes.append) == 3
+    assert notes == [
+        "computed generations 0 to 99 again",
+        "computed generations 100 to 199 again",
+        "wrote champions.npz again",
+    ]
+    assert contents(run_copy) == contents(finished_run)
+    assert repair(run_copy) == 0
+
+
+def test_repair_computes_no_more_than_what_is_damaged(run_copy, monkeypatch):
+    scored = []
+
+    def spy(population, config):
+        scored.append(population.generation)
+        return score(population, config)
+
+    score = repair_module.score_population
+    monkeypatch.setattr(repair_module, "score_population", spy)
+    flip(run_copy / "parts" / SECOND)
+    repair(run_copy)
+    assert scored == list(range(100, 200))
+
+
+def stop_at_150(path):
+    evolve(path, SMALL, Watcher(wants_stop=iter([False] * 150 + [True] * 2).__next__))
+    assert len(recorded_history(RunFolder.open(path))) == 150
+
+
+@pytest.mark.parametrize("damage", [truncate, flip, empty, remove])
+def test_a_run_goes_on_from_its_parts_without_a_sound_checkpoint(finished_run, tmp_path, damage):
+    stop_at_150(tmp_path / "run")
+    damage(tmp_path / "run" / "checkpoint.npz")
+    notes = []
+    assert evolve(tmp_path / "run", SMALL, Watcher(on_note=notes.append)) == 230
+    assert contents(tmp_path / "run") == contents(finished_run)
+    assert len(notes) == (damage is not remove)
+
+
+def test_a_run_whose_newest_parts_are_lost_computes_them_again(finished_run, tmp_path):
+    path = shutil.copytree(finished_run, tmp_path / "run")
+    remove(path / "parts" / LAST)
+    remove(path / "parts" / SECOND)
+    assert evolve(path, SMALL) == 230
+    assert contents(path) == contents(finished_run)
+
+
+def test_a_run_killed_between_part_and_checkpoint_goes_on(finished_run, tmp_path):
+    stop_at_150(tmp_path / "run")
+    shutil.copy(finished_run / "parts" / SECOND, tmp_path / "run" / "parts")
+    assert evolve(tmp_path / "run", SMALL) == 230
+    assert contents(tmp_path / "run") == contents(finished_run)
+
+
+def test_a_part_of_another_run_is_not_taken_for_one_of_this(run_copy, tmp_path):
+    other = tmp_path / "other"
+    shutil.copytree(run_copy, other)
+    config = other / "config.toml"
+    config.write_text(config.read_text().replace("seed = 11", "seed = 12"))
+    with pytest.raises(DamagedFileError, match=r"it does not belong to this config.toml"):
+        recorded_history(RunFolder.open(other))
+
+
+def test_a_part_with_a_fitting_checksum_but_other_content_is_noticed(run_copy):
+    path = run_copy / "parts" / SECOND
+    arrays = read_arrays(path)
+    write_arrays(path, {**arrays, "parents": arrays["parents"][::-1].copy()})
+    remove(run_copy / "checkpoint.npz")
+    with pytest.raises(DamagedFileError, match="generation 100 is not bred from the one before"):
+        evolve(run_copy, SMALL)
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (lambda arrays: arrays.pop("fitness"), "it has no array fitness"),
+        (
+            lambda arrays: arrays.update(fitness=arrays["fitness"][:, :5].copy()),
+            r"its fitness is float64 \(100, 5\), not float64 \(100, 10\)",
+        ),
+        (
+            lambda arrays: arrays.update(generations=arrays["generations"] + 1),
+            "its generations are not 100 to 199",
+        ),
+    ],
+)
+def test_a_part_of_another_shape_is_noticed(run_copy, change, sentence):
+    path = run_copy / "parts" / SECOND
+    arrays = read_arrays(path)
+    change(arrays)
+    write_arrays(path, arrays)
+    with pytest.raises(DamagedFileError, match=sentence):
+        RunFolder.open(run_copy).read_part(range(100, 200))
+
+
+@pytest.mark.parametrize("text", ["", "seed = ", "\x00\xff", "format = 1"])
+def test_a_damaged_config_is_named_with_the_way_out(run_copy, text):
+    (run_copy / "config.toml").write_text(text, encoding="latin-1")
+    with pytest.raises(ValueError, match=r"config.toml cannot be read: .*; remove it and repeat the command"):
+        RunFolder.open(run_copy)
+
+
+def test_a_lost_config_comes_back_with_the_command_that_started_the_run(finished_run, run_copy):
+    remove(run_copy / "config.toml")
+    assert evolve(run_copy, SMALL) == 230
+    assert contents(run_copy) == contents(finished_run)

@@ -1,0 +1,79 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from arm2d import NON_EXPERIENCED, Condition, Instruction, Readings
+from evolution import scoring
+from evolution.algorithm import initial_genotypes
+from evolution.config import RunConfig
+from evolution.population import Population, first_population
+from evolution.scoring import draw_evolution_trials, score_population
+from evolution.settings import Settings
+
+CONFIG = RunConfig(seed=5, settings=Settings(population=10, parents=5))
+SHARED, OWN = CONFIG, replace(CONFIG, readings=Readings(starts_shared="genotype"))
+
+
+@pytest.mark.parametrize("condition", Condition)
+def test_non_experienced_instructions_never_occur_in_evolution(condition, monkeypatch):
+    drawn = []
+
+    def spy(instructions, *rest):
+        drawn.extend(instructions)
+        return draw(instructions, *rest)
+
+    draw = scoring.draw_trials
+    monkeypatch.setattr(scoring, "draw_trials", spy)
+    for readings in (SHARED.readings, OWN.readings):
+        config = replace(CONFIG, condition=condition, readings=readings)
+        score_population(first_population(config), config)
+    assert set(drawn) == set(condition.experienced)
+    assert not set(drawn) & set(NON_EXPERIENCED)
+
+
+@pytest.mark.parametrize("words", ["move blue", "touch green", "ignore red"])
+def test_drawing_a_non_experienced_instruction_for_evolution_is_an_error(words):
+    instruction = Instruction.parse(words)
+    sentence = (
+        f"non-experienced instruction {words.upper()} was drawn for evolution; this would spoil the result"
+    )
+    with pytest.raises(ValueError, match=sentence):
+        draw_evolution_trials(
+            [instruction], Condition.WITH_INDICATE, 2, Readings(), np.random.default_rng(0)
+        )
+
+
+def test_fitness_is_the_mean_over_28_trials_of_the_generation(monkeypatch):
+    sizes = []
+
+    def spy(genotypes, trials, readings):
+        sizes.append((len(genotypes), len(trials)))
+        return run(genotypes, trials, readings)
+
+    run = scoring.run_trials
+    monkeypatch.setattr(scoring, "run_trials", spy)
+    assert score_population(first_population(SHARED), SHARED).shape == (10,)
+    assert sizes == [(10, 28)]
+    sizes.clear()
+    assert score_population(first_population(OWN), OWN).shape == (10,)
+    assert sizes == [(1, 28)] * 10
+
+
+def test_trials_differ_between_generations_and_repeat_within_one():
+    genotypes = initial_genotypes(CONFIG.settings, np.random.default_rng(0))
+    parents = np.zeros(10, dtype=np.int64)
+
+    def scored(generation, config):
+        return score_population(Population(generation, genotypes, parents), config).tolist()
+
+    for config in (SHARED, OWN):
+        assert scored(3, config) == scored(3, config)
+        assert scored(3, config) != scored(4, config)
+
+
+def test_equal_genotypes_score_equally_only_if_starts_are_shared():
+    genotypes = np.tile(initial_genotypes(CONFIG.settings, np.random.default_rng(3))[0], (10, 1))
+    population = Population(0, genotypes, np.zeros(10, dtype=np.int64))
+    assert len(set(score_population(population, SHARED).tolist())) == 1
+    assert len(set(score_population(population, OWN).tolist())) > 1
