@@ -57,7 +57,7 @@ def _power_of_two_from_bits(typing_context, rounded):
 
 @overload(_power_of_two, inline="always")
 def _compiled_power_of_two(rounded):
-    return lambda rounded: _power_of_two_from_bits(rounded)
+    return lambda rounded: _power_of_two_from_bits(rounded)  # type: ignore[call-arg] - Numba adds the context
 
 
 @register_jitable

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum, StrEnum
+from typing import TypeVar
 
 
 class ActionWord(IntEnum):
@@ -22,6 +23,8 @@ class ObjectWord(IntEnum):
     GREEN = 1
     RED = 2
 
+
+Word = TypeVar("Word", ActionWord, ObjectWord)
 
 # How the words are heard (spec section 4). INDICATE and IGNORE share a code: no agent meets both.
 OBJECT_CODES = {ObjectWord.BLUE: (1, 1, 0), ObjectWord.GREEN: (1, 0, 1), ObjectWord.RED: (0, 1, 1)}
@@ -102,7 +105,7 @@ NON_EXPERIENCED = (
 )
 
 
-def _find_word(words: type[ActionWord] | type[ObjectWord], kind: str, text: str):
+def _find_word(words: type[Word], kind: str, text: str) -> Word:
     """The member of `words` called `text` in any case."""
     try:
         return words[text.upper()]
