@@ -1,0 +1,42 @@
+# Two commands from nothing: `make demo` and `make test`. Each sets up its own environment first.
+
+VENV ?= .venv
+DEMO ?= demo
+DEMO_SEED ?= 2
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+
+.DEFAULT_GOAL := help
+.PHONY: help setup demo test lint format bench clean
+
+help:  ## what there is to make
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 10
+
+$(READY): pyproject.toml constraints.txt scripts/setup.sh
+	@sh scripts/setup.sh $(VENV)
+	@touch $@
+
+setup: $(READY)  ## the virtual environment, with what the system lacks
+
+demo: $(READY)  ## evolve one run, evaluate its champion and show it on the iCub
+	@PATH="$(abspath $(BIN)):$$PATH" sh scripts/demo.sh $(DEMO) $(DEMO_SEED)
+
+test: $(READY)  ## all tests, on all cores
+	$(BIN)/python -m pytest -n auto --dist worksteal
+
+lint: $(READY)  ## style and types
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/pyright
+
+format: $(READY)  ## rewrite the sources in the project's style
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(READY)  ## what is fast, measured on this machine
+	$(BIN)/python -m benchmarks.kernel
+	$(BIN)/python -m benchmarks.run
+	$(BIN)/python -m benchmarks.ik
+
+clean:  ## remove the environment and what the demo made
+	rm -rf $(VENV) $(DEMO) .pytest_cache .ruff_cache

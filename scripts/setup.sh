@@ -1,0 +1,62 @@
+#!/bin/sh
+# Make the environment that `make demo`, `make test` and CI run in: scripts/setup.sh VENV
+#
+# Installs what the system lacks when it runs as root on Debian or Ubuntu, and says what to install
+# otherwise. Every Python package is pinned by constraints.txt.
+set -eu
+
+venv=${1:?usage: scripts/setup.sh VENV}
+cd "$(dirname "$0")/.."
+
+say() { printf 'wordarm: %s\n' "$*" >&2; }
+
+may_install() { [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; }
+
+install() {
+    say "installing $*"
+    [ -n "${updated:-}" ] || apt-get update -qq
+    updated=yes
+    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" >/dev/null
+}
+
+find_python() {
+    for candidate in python3 python3.14 python3.13 python3.12 python3.11; do
+        if command -v "$candidate" >/dev/null &&
+            "$candidate" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
+            echo "$candidate"
+            return
+        fi
+    done
+}
+
+has_gl() { ldconfig -p | grep -q 'libEGL\.so\.1' && ls /usr/share/glvnd/egl_vendor.d/*.json >/dev/null 2>&1; }
+
+python=$(find_python)
+if [ -z "$python" ] && may_install; then
+    install python3 python3-venv
+    python=$(find_python)
+fi
+if [ -z "$python" ]; then
+    say "found no Python of version 3.11 or later; install one (Debian: apt-get install python3 python3-venv)"
+    exit 2
+fi
+if ! "$python" -c 'import ensurepip, venv' 2>/dev/null; then
+    package=$("$python" -c 'import sys; print("python%d.%d-venv" % sys.version_info[:2])')
+    if ! may_install; then
+        say "$python cannot make virtual environments; run: apt-get install $package"
+        exit 2
+    fi
+    install "$package"
+fi
+
+[ -x "$venv/bin/python" ] || "$python" -m venv "$venv"
+say "installing Python packages into $venv"
+"$venv/bin/python" -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
+
+if ! has_gl; then
+    if may_install; then
+        install libegl1 libgl1 libgl1-mesa-dri
+    else
+        say "no EGL library for rendering without a screen; run: apt-get install libegl1 libgl1 libgl1-mesa-dri"
+    fi
+fi
