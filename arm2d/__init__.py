@@ -14,12 +14,16 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from arm2d.controller import Networks, check_genotypes, decode, encode
+    from arm2d.drawing import draw_state
     from arm2d.instructions import NON_EXPERIENCED, ActionWord, Condition, Instruction, ObjectWord
     from arm2d.readings import Readings
     from arm2d.running import record_trial, run_trials
     from arm2d.trials import LabelChanges, TrialRecord, Trials, TrialScores, draw_trials
+    from arm2d.video import render_video
 
 _HOMES = {
+    "drawing": ("draw_state",),
+    "video": ("render_video",),
     "controller": ("Networks", "check_genotypes", "decode", "encode"),
     "instructions": ("ActionWord", "Condition", "Instruction", "NON_EXPERIENCED", "ObjectWord"),
     "readings": ("Readings",),
@@ -29,6 +33,8 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [  # noqa: RUF022 - in the order of _HOMES
+    "draw_state",
+    "render_video",
     "Networks",
     "check_genotypes",
     "decode",

@@ -1,0 +1,74 @@
+"""Videos of the planar world: a recorded trial to an MP4, or to frames for a larger picture."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from arm2d.constants import DT
+from arm2d.drawing import FLOOR, Scene
+from arm2d.trials import TrialRecord
+
+FRAMES_PER_STEP: Final = 3  # positions are interpolated in between
+DPI: Final = 100
+HOLD_S: Final = 1.0  # the last state stays for so long
+
+
+class Panel:
+    """RGB frames of a trial, such as the panel beside the robot: `Panel(record, 480, 360).frame(12.5)`.
+
+    Args:
+        record: The trial.
+        width_px: Width and
+        height_px: height of a frame.
+        caption: Whether instruction and time are written into it.
+    """
+
+    def __init__(self, record: TrialRecord, width_px: int, height_px: int, *, caption: bool = True) -> None:
+        figure = Figure(figsize=(width_px / DPI, height_px / DPI), dpi=DPI, facecolor=FLOOR)
+        self._canvas = FigureCanvasAgg(figure)
+        self._scene = Scene(figure.add_axes((0, 0, 1, 1)), record, caption=caption)
+
+    def frame(self, step: float) -> NDArray[np.uint8]:
+        """The picture after `step` steps, [height, width, 3]; fractions lie between two states."""
+        self._scene.show(step)
+        self._canvas.draw()
+        return np.asarray(self._canvas.buffer_rgba())[..., :3].copy()
+
+
+def frames(record: TrialRecord, width_px: int = 960, height_px: int = 720) -> Iterator[NDArray[np.uint8]]:
+    """All frames of a trial's video, [height, width, 3] each."""
+    panel = Panel(record, width_px, height_px)
+    for k in range(record.steps * FRAMES_PER_STEP + 1):
+        yield panel.frame(k / FRAMES_PER_STEP)
+    for _ in range(round(HOLD_S / DT * FRAMES_PER_STEP)):
+        yield panel.frame(record.steps)
+
+
+def render_video(record: TrialRecord, path: Path | str) -> Path:
+    """Write a trial as an MP4 in real time; the file appears when it is complete.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
+    import imageio.v2 as imageio
+
+    path = Path(path)
+    unfinished = path.with_name(f".{path.stem}.unfinished{path.suffix}")
+    try:
+        with imageio.get_writer(
+            unfinished, fps=FRAMES_PER_STEP / DT, codec="libx264", quality=7, macro_block_size=16
+        ) as writer:
+            for frame in frames(record):
+                writer.append_data(frame)
+        os.replace(unfinished, path)
+    finally:
+        unfinished.unlink(missing_ok=True)
+    return path

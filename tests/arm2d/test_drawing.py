@@ -1,0 +1,76 @@
+"""Pictures and videos of the planar world."""
+
+import imageio.v2 as imageio
+import numpy as np
+import pytest
+from controllers import one_trial, steady_controller
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+
+from arm2d import draw_state, record_trial, render_video
+from arm2d.drawing import OBJECT_COLOURS, arm_points, state_at
+from arm2d.video import Panel
+
+
+@pytest.fixture(scope="module")
+def record():
+    trial = one_trial(1, 1, 60.0, {0: (150.0, 30.0), 1: (140.0, 62.0), 2: (150.0, 150.0)})
+    return record_trial(steady_controller(0, -1), trial)
+
+
+def pixels_like(picture, colour):
+    """How many pixels of a frame [H, W, 3] have this colour."""
+    return int((np.abs(picture / 255.0 - to_rgb(colour)).max(axis=-1) < 0.02).sum())
+
+
+def test_frame_shows_all_three_discs_in_their_colours(record):
+    picture = Panel(record, 480, 360).frame(0)
+    assert picture.shape == (360, 480, 3)
+    for colour in OBJECT_COLOURS.values():
+        assert pixels_like(picture, colour) > 50
+
+
+def test_picture_changes_when_the_arm_moves_and_only_then(record):
+    panel = Panel(record, 480, 360, caption=False)
+    start = panel.frame(0)
+    assert not np.array_equal(panel.frame(1), start)
+    np.testing.assert_array_equal(panel.frame(0), start)
+
+
+def test_arm_is_drawn_with_its_lengths_and_angles():
+    joint, tip = arm_points(90.0, 90.0)
+    np.testing.assert_allclose(joint, [0, 100], atol=1e-12)
+    np.testing.assert_allclose(tip, [-50, 100], atol=1e-12)
+
+
+def test_states_between_two_steps_lie_between_them(record):
+    assert state_at(record, 0.5)[1] == pytest.approx((record.beta[0] + record.beta[1]) / 2)
+
+
+def test_state_names_the_instruction(record):
+    figure = Figure()
+    axes = figure.add_subplot()
+    draw_state(axes, record, record.steps)
+    assert "TOUCH Green" in [text.get_text() for text in axes.texts]
+
+
+def test_step_that_does_not_exist_is_refused(record):
+    with pytest.raises(
+        ValueError, match=f"step 251 does not exist; this trial has the states 0 to {record.steps}"
+    ):
+        draw_state(Figure().add_subplot(), record, 251)
+
+
+def test_video_lasts_as_long_as_the_trial_and_its_hold(record, tmp_path):
+    short = record_trial(steady_controller(0, 0), one_trial(2, 1, 60.0, {1: (150.0, 60.0)}))
+    path = render_video(short, tmp_path / "trial.mp4")
+    with imageio.get_reader(path) as reader:
+        meta = reader.get_meta_data()
+    assert meta["duration"] == pytest.approx(short.steps * 0.1 + 1.0, abs=0.1)
+    assert [each.name for each in tmp_path.iterdir()] == ["trial.mp4"]
+
+
+def test_video_into_a_missing_folder_leaves_nothing_behind(record, tmp_path):
+    with pytest.raises(OSError):  # noqa: PT011 - whichever the writer raises
+        render_video(record, tmp_path / "missing" / "trial.mp4")
+    assert not list(tmp_path.iterdir())
