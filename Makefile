@@ -2,7 +2,7 @@
 
 VENV ?= .venv
 DEMO ?= demo
-DEMO_SEED ?= 2
+DEMO_SEED ?= 7
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
