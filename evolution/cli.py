@@ -64,7 +64,7 @@ def _parse(arguments: Sequence[str], evolve: Evolve) -> Command:
 
 
 def _sentence(error: ValueError | OSError) -> str:
-    """What an error says, with the file a system call failed on."""
-    if isinstance(error, OSError) and error.strerror:
-        return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
-    return str(error)
+    """What an error says, on one line, with the file a system call failed on."""
+    if isinstance(error, OSError) and error.filename:
+        return f"{error.filename}: {error.strerror}"
+    return " ".join(str(error).split())

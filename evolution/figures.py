@@ -1,8 +1,4 @@
-"""Figures: drawing takes data and axes; `save_figure` writes PNG and SVG.
-
-The three object colours (blue, green, red of a colour-blind safe palette) mean the objects
-everywhere in the project.
-"""
+"""Figures: drawing takes data and axes; `save_figure` writes PNG and SVG."""
 
 from __future__ import annotations
 
@@ -19,12 +15,11 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from arm2d import ActionWord, Condition, ObjectWord
+from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.evaluation import Evaluation
 from evolution.history import History
 from evolution.storage import write_atomically
 
-OBJECT_COLOURS: Final = {ObjectWord.BLUE: "#0072B2", ObjectWord.GREEN: "#009E73", ObjectWord.RED: "#D55E00"}
-INK: Final = "#1A1A1A"
 FAINT: Final = "#767676"
 BEST_COLOUR: Final = "#1B4F72"
 MEAN_COLOUR: Final = "#8FB3CC"

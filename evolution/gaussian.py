@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from arm2d.arithmetic import log, sin_cos
+from arm2d.compiling import compiled
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(allocates=False)
 def fill_gaussian(radial, angular, out):
     """Standard normal numbers from pairs of uniform ones, by the cosine half of Box and Muller.
 

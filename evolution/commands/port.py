@@ -8,6 +8,8 @@ from typing import Literal
 
 from tyro.conf import Positional
 
+from arm2d import Condition, Instruction
+
 
 @dataclass(frozen=True)
 class Port:
@@ -41,5 +43,13 @@ class Port:
     """The video. By default `videos/<agent>-<instruction>.mp4` in the run folder, or in the current one."""
 
     def run(self) -> int:
-        """Record the trial and hand it over."""
-        raise ValueError("the port is not there yet")
+        """Record the trial and let the humanoid follow it."""
+        instruction = Instruction.parse(self.instruction)
+        condition = None if self.condition is None else Condition.parse(self.condition)
+
+        from evolution.recording import record_instruction
+        from evolution.sources import find_source
+
+        source = find_source(self.source, generation=self.generation, rank=self.rank, condition=condition)
+        record = record_instruction(source, instruction, self.start_area, self.trial_seed)
+        raise NotImplementedError(f"the humanoid cannot follow {record.instruction} yet")

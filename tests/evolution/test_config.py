@@ -1,3 +1,5 @@
+import re
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -46,7 +48,10 @@ HEAD = f'format = {FORMAT}\ncondition = "with-indicate"\nseed = 3\n'
         ("", "format is missing; a run needs format, condition and seed"),
         (f"{HEAD}speed = 3", "unknown key 'speed'; there are format, condition, seed, settings, readings"),
         (HEAD.replace("= 1\n", "= 2\n", 1), "format 2 is not known here; this version reads format 1"),
-        (HEAD.replace("indicate", "shout"), "unknown condition 'with-shout'; there are with-indicate, with-ignore"),
+        (
+            HEAD.replace("indicate", "shout"),
+            "unknown condition 'with-shout'; there are with-indicate, with-ignore",
+        ),
         (HEAD.replace("seed = 3", "seed = -1"), "seed = -1 must be a whole number from 0 to 2**63 - 1"),
         (HEAD.replace("seed = 3", "seed = true"), "seed = True must be a whole number"),
         (f"{HEAD}settings = 3", "settings and readings must be tables, such as [settings]"),
@@ -61,12 +66,11 @@ HEAD = f'format = {FORMAT}\ncondition = "with-indicate"\nseed = 3\n'
     ],
 )
 def test_an_impossible_config_is_refused_with_what_would_be_right(text, sentence):
-    with pytest.raises(ValueError) as caught:
+    with pytest.raises(ValueError, match=re.escape(sentence)):
         RunConfig.from_toml(text)
-    assert sentence in str(caught.value)
 
 
 @given(st.text() | st.binary().map(lambda data: data.decode("latin-1")))
 def test_any_other_text_is_refused_plainly(text):
-    with pytest.raises(ValueError):
+    with pytest.raises(ValueError, match=r"\w"):
         RunConfig.from_toml(text)

@@ -100,7 +100,9 @@ def test_a_second_process_is_refused_while_the_first_works(run_copy):
 def test_another_configuration_is_refused_with_the_difference(run_copy):
     before = contents(run_copy)
     other = replace(SMALL, settings=Settings(population=80))
-    with pytest.raises(ValueError, match=r"started with settings.population = 10, not 80; .*choose a new dir"):
+    with pytest.raises(
+        ValueError, match=r"started with settings.population = 10, not 80; .*choose a new dir"
+    ):
         evolve(run_copy, other)
     assert contents(run_copy) == before
 

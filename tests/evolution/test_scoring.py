@@ -39,9 +39,7 @@ def test_drawing_a_non_experienced_instruction_for_evolution_is_an_error(words):
         f"non-experienced instruction {words.upper()} was drawn for evolution; this would spoil the result"
     )
     with pytest.raises(ValueError, match=sentence):
-        draw_evolution_trials(
-            [instruction], Condition.WITH_INDICATE, 2, Readings(), np.random.default_rng(0)
-        )
+        draw_evolution_trials([instruction], Condition.WITH_INDICATE, 2, Readings(), np.random.default_rng(0))
 
 
 def test_fitness_is_the_mean_over_28_trials_of_the_generation(monkeypatch):

@@ -9,7 +9,11 @@ from hypothesis import strategies as st
 from evolution import storage
 from evolution.storage import DamagedFileError, pack_arrays, read_arrays, write_arrays, write_atomically
 
-ARRAYS = {"name": np.array("seed 7"), "genes": np.random.default_rng(0).random((3, 84)), "none": np.empty((0, 2))}
+ARRAYS = {
+    "name": np.array("seed 7"),
+    "genes": np.random.default_rng(0).random((3, 84)),
+    "none": np.empty((0, 2)),
+}
 PACKED = pack_arrays(ARRAYS)
 
 

@@ -1,0 +1,77 @@
+import csv
+import io
+import json
+
+import numpy as np
+import pytest
+from small_runs import SMALL
+
+from arm2d import Condition, Readings
+from evolution.config import RunConfig
+from evolution.evaluation import evaluate
+from evolution.sources import Source
+from evolution.tables import rows_of, terminal_table, to_csv, to_json
+
+GENOTYPES = np.random.default_rng(4).random((3, 84))
+
+
+def test_all_nine_instructions_are_carried_out_80_times():
+    result = evaluate(GENOTYPES, Condition.WITH_INDICATE, Readings())
+    assert result.trials == 80
+    assert result.successes.shape == (3, 9, 2)
+    assert result.fitness.shape == (3, 9)
+    assert result.successes.min() >= 0
+    assert result.successes.max() <= 40
+
+
+def test_exactly_the_two_never_met_instructions_are_not_experienced():
+    for condition in Condition:
+        result = evaluate(GENOTYPES[0], condition, Readings(), per_area=1)
+        names = [
+            str(each)
+            for each, known in zip(condition.instructions, result.experienced, strict=True)
+            if not known
+        ]
+        assert names == ["MOVE Blue", "TOUCH Green"]
+
+
+def test_the_same_trial_seed_gives_the_same_result_and_another_one_another():
+    def run(seed):
+        return evaluate(GENOTYPES, Condition.WITH_IGNORE, Readings(), trial_seed=seed).fitness
+
+    assert np.array_equal(run(0), run(0))
+    assert not np.array_equal(run(0), run(1))
+
+
+def test_an_agent_is_judged_alike_alone_and_in_company():
+    together = evaluate(GENOTYPES, Condition.WITH_INDICATE, Readings())
+    alone = evaluate(GENOTYPES[1], Condition.WITH_INDICATE, Readings())
+    assert np.array_equal(together.successes[1], alone.successes[0])
+    assert np.array_equal(together.fitness[1], alone.fitness[0])
+
+
+def test_fitness_is_the_sum_of_its_parts():
+    result = evaluate(GENOTYPES, Condition.WITH_INDICATE, Readings())
+    np.testing.assert_allclose(result.fitness, result.f1 + result.f2 + result.f3, rtol=1e-12)
+
+
+def test_csv_and_json_tell_what_the_evaluation_does():
+    result = evaluate(GENOTYPES[0], SMALL.condition, SMALL.readings, per_area=2)
+    source = Source(GENOTYPES[0], SMALL.condition, SMALL.readings, "somewhere", "agent")
+    from_csv = list(csv.DictReader(io.StringIO(to_csv(result))))
+    content = json.loads(to_json(result, source))
+    assert content["instructions"] == rows_of(result)
+    assert [each["instruction"] for each in from_csv] == [each["instruction"] for each in rows_of(result)]
+    assert [int(each["successes"]) for each in from_csv] == result.successes[0].sum(axis=-1).tolist()
+    assert Readings.from_mapping(content["readings"]) == SMALL.readings
+
+
+def test_the_terminal_table_marks_the_never_met_ones():
+    result = evaluate(GENOTYPES[0], Condition.WITH_INDICATE, RunConfig().readings, per_area=1)
+    names = list(terminal_table(result, "agent").columns[0].cells)
+    assert [name for name in names if name.endswith("*")] == ["MOVE Blue *", "TOUCH Green *"]
+
+
+def test_no_trials_are_refused():
+    with pytest.raises(ValueError, match="0 trials per area"):
+        evaluate(GENOTYPES, Condition.WITH_INDICATE, Readings(), per_area=0)
