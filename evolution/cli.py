@@ -18,13 +18,14 @@ from evolution.commands.evaluate import Evaluate
 from evolution.commands.evolve import Evolve, UncheckedReadings
 from evolution.commands.plot import Plot
 from evolution.commands.port import Port
+from evolution.commands.postevaluate import PostEvaluate
 from evolution.commands.repair import Repair
 
 DESCRIPTION: Final = "An arm that obeys two-word instructions: evolve its controllers, test them, show them."
 BAD_INPUT: Final = 2
 INTERRUPTED: Final = 130
 
-Command = Evolve | Evaluate | Plot | Port | Repair
+Command = Evolve | Evaluate | Plot | Port | PostEvaluate | Repair
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -58,6 +59,7 @@ def _parse(arguments: Sequence[str], evolve: Evolve) -> Command:
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Plot, subcommand("plot")]
         | Annotated[Port, subcommand("port")]
+        | Annotated[PostEvaluate, subcommand("postevaluate")]
         | Annotated[Repair, subcommand("repair")]
     )
     return tyro.cli(commands, prog="wordarm", description=DESCRIPTION, args=arguments)  # pyright: ignore

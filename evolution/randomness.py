@@ -21,6 +21,8 @@ class Purpose(IntEnum):
     CHAMPION = 4
     EVALUATION = 5
     RECORDING = 6
+    POST_EVALUATION = 7
+    TRANSITIONS = 8
 
 
 def generator(seed: int, purpose: Purpose, generation: int = 0) -> np.random.Generator:

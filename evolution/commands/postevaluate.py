@@ -1,0 +1,40 @@
+"""`wordarm postevaluate`: the paper's first test of a run or of all runs of an experiment."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from tyro.conf import Positional
+
+
+@dataclass(frozen=True)
+class PostEvaluate:
+    """Test the five best of each late generation on all nine instructions, 80 trials each.
+
+    Repeat the command to go on where it was stopped.
+    """
+
+    path: Positional[Path]
+    """Run folder, or experiment folder with its runs below it."""
+
+    def run(self) -> int:
+        """Post-evaluate every finished run."""
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+        from evolution.experiment import open_experiment, state_of
+        from evolution.lock import locked
+        from evolution.postevaluation import post_evaluate
+
+        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+        with Progress(*columns) as bars:
+            for run in open_experiment(self.path).all_runs:
+                state = state_of(run)
+                name = f"{run.config.condition}, seed {run.config.seed}"
+                if state.damage or not state.finished:
+                    bars.console.print(f"{name}: left out, {state.damage or 'not finished'}")
+                    continue
+                bar = bars.add_task(name, total=state.to_evaluate)
+                with locked(run.path):
+                    post_evaluate(run, lambda done, _, bar=bar: bars.update(bar, completed=done))
+        return 0

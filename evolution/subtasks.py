@@ -1,0 +1,82 @@
+"""Sub-tasks and categories of Table II, and the classes of agents (section VII; spec section 10)."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import NON_EXPERIENCED, Condition, Instruction
+from evolution.postevaluation import TRIALS
+
+TOUCH_GREEN, MOVE_BLUE = NON_EXPERIENCED
+SUBTASKS: Final = ("I", "II", "III", "IV")
+N_CATEGORIES: Final = 11
+TRIALS_PER_CATEGORY: Final = TRIALS // (N_CATEGORIES - 1)
+
+
+class AgentClass(StrEnum):
+    """How far an agent that masters all experienced instructions generalises."""
+
+    FULL = "fully compositional"
+    PARTIAL = "partially compositional"
+    NONE = "non-compositional"
+
+
+def subtask_instructions(condition: Condition) -> dict[str, tuple[Instruction, ...]]:
+    """Which instructions belong to each sub-task: the experienced ones, and which never-met ones besides."""
+    known = condition.experienced
+    return {
+        "I": known,
+        "II": (*known, MOVE_BLUE),
+        "III": (*known, TOUCH_GREEN),
+        "IV": (*known, MOVE_BLUE, TOUCH_GREEN),
+    }
+
+
+def categories(successes: NDArray[np.integer], condition: Condition) -> NDArray[np.int64]:
+    """Categories [A, 4] of A agents in the four sub-tasks.
+
+    0 if the least-mastered instruction of the sub-task never succeeded, else n if it succeeded in more
+    than 8 (n - 1) and at most 8 n of 80 trials.
+
+    Args:
+        successes: [A, 9], of 80 trials each.
+        condition: Names the nine instructions.
+    """
+    order = condition.instructions
+    columns = [
+        successes[:, [order.index(each) for each in instructions]].min(axis=1)
+        for instructions in subtask_instructions(condition).values()
+    ]
+    lowest = np.stack(columns, axis=1).astype(np.int64)
+    return -(-lowest // TRIALS_PER_CATEGORY)
+
+
+def count_table(categories_: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Agents by category and sub-task, [11, 4]: Table II."""
+    return np.stack([np.bincount(column, minlength=N_CATEGORIES) for column in categories_.T], axis=1)
+
+
+def masters(successes: NDArray[np.integer], condition: Condition) -> NDArray[np.bool_]:
+    """Which agents [A] exceed 75 % on every experienced instruction."""
+    known = [condition.instructions.index(each) for each in condition.experienced]
+    return np.all(4 * successes[:, known].astype(np.int64) > 3 * TRIALS, axis=1)
+
+
+def classify(successes: NDArray[np.integer], condition: Condition) -> dict[AgentClass, NDArray[np.bool_]]:
+    """Which agents [A] belong to each class; those between the classes belong to none.
+
+    Above 75 % means more than 60 of 80 trials, below 10 % fewer than 8.
+    """
+    never_met = [condition.instructions.index(each) for each in NON_EXPERIENCED]
+    counts = successes[:, never_met].astype(np.int64)
+    high, low = 4 * counts > 3 * TRIALS, 10 * counts < TRIALS
+    known = masters(successes, condition)
+    return {
+        AgentClass.FULL: known & high.all(axis=1),
+        AgentClass.PARTIAL: known & (high.sum(axis=1) == 1) & (low.sum(axis=1) == 1),
+        AgentClass.NONE: known & low.all(axis=1),
+    }
