@@ -2,14 +2,18 @@
 
     settings, config     what determines a run
     randomness           every draw from (seed, purpose, generation)
-    algorithm, gaussian  one generation to the next
+    algorithm, gaussian  one generation to the next: pure functions on arrays
+    population           a generation, and the one that follows it
     scoring              the trials of a generation, and what they are worth
-    storage, folder      what a run leaves behind, and how it is read back
-    replay               every genotype again, from parents and seeds
-    run, repair          a run from first to last generation, and its damaged files again
+    history              what is kept of scored generations
+    storage, folder      files that are whole or refused, and those of a run
+    checkpoint, lock     where a run can go on, and that one process does
+    recorded, replay     what a run has recorded; every genotype again, without a trial
+    run, repair          a run from first to last generation; its damaged files again
     evaluation, champion all nine instructions; the agents a run is remembered by
-    sources              a run, a file or a name -> genotype, condition and readings
+    sources, recording   a run, a file or a name -> genotype and its world -> a recorded trial
     figures, tables      evaluations and fitness, drawn and written
+    meta, progress       with what a run was computed; how it gets on
     cli, commands/       the command line
 
 Modules are imported by their names, such as `from evolution.run import evolve`: the command line

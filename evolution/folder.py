@@ -1,6 +1,6 @@
 """The folder of one run: which files it holds, and how they are read and written (docs/file-formats.md).
 
-Parts are written once. A checkpoint is replaced as a whole. Each `.npz` names the config.toml it
+Parts are written once. Each `.npz` names the config.toml it
 belongs to, so that a file of another run is not taken for one of this.
 """
 
@@ -14,10 +14,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.constants import N_GENES
 from evolution.config import RunConfig
-from evolution.history import History, check_array, history_from_arrays
-from evolution.population import Population
+from evolution.history import History, history_from_arrays
 from evolution.storage import (
     DamagedFileError,
     make_folder,
@@ -34,25 +32,8 @@ PARTS: Final = "parts"
 CHECKPOINT: Final = "checkpoint.npz"
 CHAMPIONS: Final = "champions.npz"
 LOCK: Final = "lock"
-OWN_FILES: Final = {CONFIG, META, PARTS, CHECKPOINT, CHAMPIONS, LOCK}
-
-
-@dataclass(frozen=True)
-class Checkpoint:
-    """Where a run can go on.
-
-    Attributes:
-        population: The next generation to be scored.
-        unfinished: The generations scored since the last part was written.
-    """
-
-    population: Population
-    unfinished: History
-
-    @property
-    def first(self) -> int:
-        """The generation after the last part: the first of the unfinished ones."""
-        return self.population.generation - len(self.unfinished)
+ANALYSES: Final = ("postevaluation", "transitions", "evaluation", "lineage", "behaviour")
+OWN_FILES: Final = {CONFIG, META, PARTS, CHECKPOINT, CHAMPIONS, LOCK, *ANALYSES}
 
 
 @dataclass(frozen=True)
@@ -151,36 +132,6 @@ class RunFolder:
         """Keep the generations of `span` for good."""
         self.write_arrays(self.part_path(span), history.arrays())
 
-    def read_checkpoint(self) -> Checkpoint | None:
-        """The checkpoint, if there is one.
-
-        Raises:
-            DamagedFileError: If it is not what was written.
-        """
-        path = self.path / CHECKPOINT
-        if not path.exists():
-            return None
-        arrays = self.read_arrays(path)
-        n_genotypes = self.config.settings.population
-        check_array(path, arrays, "generation", (), np.dtype(np.int64))
-        check_array(path, arrays, "next_genotypes", (n_genotypes, N_GENES), np.dtype(np.float64))
-        check_array(path, arrays, "next_parents", (n_genotypes,), np.dtype(np.int64))
-        generation = int(arrays["generation"])
-        population = Population(generation, arrays["next_genotypes"], arrays["next_parents"])
-        unfinished = range(self._part_start(generation), generation)
-        return Checkpoint(population, history_from_arrays(path, arrays, unfinished, n_genotypes))
-
-    def write_checkpoint(self, checkpoint: Checkpoint) -> None:
-        """Replace the checkpoint."""
-        population = checkpoint.population
-        arrays = {
-            "generation": np.array(population.generation),
-            "next_genotypes": population.genotypes,
-            "next_parents": population.parents,
-            **checkpoint.unfinished.arrays(),
-        }
-        self.write_arrays(self.path / CHECKPOINT, arrays)
-
     def read_arrays(self, path: Path) -> dict[str, NDArray]:
         """The arrays of one of this run's files.
 
@@ -203,10 +154,6 @@ class RunFolder:
             found,
             f"recompute generations {span.start} to {span.stop - 1} with: wordarm repair {self.path}",
         )
-
-    def _part_start(self, generation: int) -> int:
-        """The first generation of the part to which `generation` belongs; itself, if the run is over."""
-        return next((span.start for span in self.spans if generation in span), generation)
 
 
 def refuse_other(path: Path, config: RunConfig) -> None:

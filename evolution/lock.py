@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TextIO
 
 from evolution.folder import LOCK
 
@@ -23,7 +24,7 @@ def locked(folder: Path) -> Iterator[None]:
         RunInUseError: If another process holds it.
         OSError: If the lock file cannot be written.
     """
-    with (folder / LOCK).open("a+", encoding="utf-8") as file:
+    with _open(folder / LOCK) as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -37,3 +38,11 @@ def locked(folder: Path) -> Iterator[None]:
         file.write(f"{os.getpid()}\n")
         file.flush()
         yield
+
+
+def _open(path: Path) -> TextIO:
+    """The lock file, made if need be, for reading and writing."""
+    try:
+        return path.open("a+", encoding="utf-8")
+    except OSError as error:
+        raise OSError(f"{path.parent} cannot be written: {error.strerror}; choose another folder") from None

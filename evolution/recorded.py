@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from evolution.checkpoint import load_checkpoint
 from evolution.folder import RunFolder
 from evolution.history import History
 
@@ -57,6 +58,6 @@ def _beyond(folder: RunFolder, spans: list[range]) -> History | None:
     """The generations that the checkpoint holds beyond the finished parts, if any."""
     if len(spans) == len(folder.spans):
         return None
-    checkpoint = folder.read_checkpoint()
+    checkpoint = load_checkpoint(folder)
     end = spans[-1].stop if spans else 0
     return checkpoint.unfinished if checkpoint and checkpoint.unfinished and checkpoint.first == end else None

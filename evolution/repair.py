@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from evolution.champion import keep_champions
+from evolution.checkpoint import load_checkpoint
 from evolution.folder import CHAMPIONS, CHECKPOINT, RunFolder
 from evolution.history import HistoryBuilder
 from evolution.lock import locked
@@ -66,7 +67,7 @@ def _repair_rest(folder: RunFolder, on_note: Callable[[str], None]) -> int:
     """Drop a damaged checkpoint, which the parts replace; choose lost champions again."""
     n_repaired = 0
     try:
-        folder.read_checkpoint()
+        load_checkpoint(folder)
     except DamagedFileError as error:
         error.path.unlink()
         on_note(f"removed the damaged {CHECKPOINT}; the run will go on from its parts")

@@ -10,8 +10,9 @@ from pathlib import Path
 from evolution import meta
 from evolution.algorithm import mean_in_order
 from evolution.champion import keep_champions
+from evolution.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
 from evolution.config import RunConfig
-from evolution.folder import CHAMPIONS, META, Checkpoint, RunFolder, refuse_other
+from evolution.folder import CHAMPIONS, META, RunFolder, refuse_other
 from evolution.history import HistoryBuilder
 from evolution.lock import locked
 from evolution.population import first_population, next_population
@@ -101,7 +102,7 @@ def resume(folder: RunFolder, watcher: Watcher) -> Checkpoint:
 def _sound_checkpoint(folder: RunFolder, watcher: Watcher) -> Checkpoint | None:
     """The checkpoint; none if it is damaged, for it holds nothing that cannot be computed again."""
     try:
-        return folder.read_checkpoint()
+        return load_checkpoint(folder)
     except DamagedFileError as error:
         watcher.on_note(f"{error}; going on from the parts instead")
         return None
@@ -125,8 +126,8 @@ def _score_generations(folder: RunFolder, start: Checkpoint, watcher: Watcher) -
         if population.generation in span_until:
             folder.write_part(span_until[population.generation], part.build())
             part = HistoryBuilder(config.settings.population)
-            folder.write_checkpoint(Checkpoint(population, part.build()))
+            save_checkpoint(folder, Checkpoint(population, part.build()))
     reached = Checkpoint(population, part.build())
-    folder.write_checkpoint(reached)
+    save_checkpoint(folder, reached)
     meta.note_end(folder.path / META, population.generation, time.process_time() - began)
     return reached

@@ -75,7 +75,7 @@ class Evolve:
         total = config.settings.generations
         with StopRequest() as stop, shown_progress(console, total) as show:
             watcher = Watcher(
-                on_start=lambda generation: print(f"{path}: from generation {generation} on"),
+                on_start=lambda generation: _announce(path, generation),
                 on_generation=show,
                 on_note=lambda note: print(note, file=sys.stderr),
                 wants_stop=lambda: stop.requested,
@@ -86,6 +86,16 @@ class Evolve:
             return INTERRUPTED
         print(f"finished: {path}\nlook at it with: wordarm evaluate {path}")
         return 0
+
+
+def _announce(path: Path, generation: int) -> None:
+    """Say where the run starts, and what the user is waiting for if that will take a while."""
+    from arm2d.compiling import cache_folder
+
+    print(f"{path}: from generation {generation} on")
+    compiled = cache_folder()
+    if compiled is None or not any(Path(compiled).iterdir()):
+        print("the arm is being compiled first, once on this machine; that takes some seconds", flush=True)
 
 
 def default_folder(experiment: str, config: RunConfig) -> Path:
