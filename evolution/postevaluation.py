@@ -85,7 +85,7 @@ def read_post_evaluation(folder: RunFolder) -> PostEvaluation:
         ValueError: If it was not, or not to the end.
         DamagedFileError: If a part of the results is damaged.
     """
-    parts = [_read(folder, span) for span in late_spans(folder)]
+    parts = [read_part(folder, span) for span in late_spans(folder)]
     return PostEvaluation(
         generations=np.concatenate([each.generations for each in parts]),
         successes=np.concatenate([each.successes for each in parts]),
@@ -117,12 +117,12 @@ def evaluate_agents(config: RunConfig, generation: int, genotypes: NDArray[np.fl
 def _evaluate_part(folder: RunFolder, span: range) -> PostEvaluation:
     successes = [
         evaluate_agents(folder.config, generation, genotypes)
-        for generation, genotypes in _best_genotypes(folder, span)
+        for generation, genotypes in best_genotypes(folder, span)
     ]
     return PostEvaluation(np.array(span, np.int32), np.array(successes))
 
 
-def _best_genotypes(folder: RunFolder, span: range) -> Iterator[tuple[int, NDArray[np.float64]]]:
+def best_genotypes(folder: RunFolder, span: range) -> Iterator[tuple[int, NDArray[np.float64]]]:
     """(generation, its five best [5, 84]) of a span within one part of the run."""
     whole = next(each for each in folder.spans if span.start in each)
     history: History = folder.read_part(whole)
@@ -136,7 +136,8 @@ def _write(folder: RunFolder, span: range, part: PostEvaluation) -> None:
     )
 
 
-def _read(folder: RunFolder, span: range) -> PostEvaluation:
+def read_part(folder: RunFolder, span: range) -> PostEvaluation:
+    """The results of some generations; raises as `read_post_evaluation`."""
     path = part_path(folder, span)
     if not path.exists():
         raise ValueError(f"{path} is missing; go on with: wordarm postevaluate {folder.path}")

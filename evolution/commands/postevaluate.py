@@ -10,7 +10,7 @@ from tyro.conf import Positional
 
 @dataclass(frozen=True)
 class PostEvaluate:
-    """Test the five best of each late generation on all nine instructions, 80 trials each.
+    """Test the five best of each late generation on all nine instructions, and on changes in mid-trial.
 
     Repeat the command to go on where it was stopped.
     """
@@ -25,6 +25,8 @@ class PostEvaluate:
         from evolution.experiment import open_experiment, state_of
         from evolution.lock import locked
         from evolution.postevaluation import post_evaluate
+        from evolution.solving import solved_trials
+        from evolution.transition_test import run_transition_test
 
         columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
         with Progress(*columns) as bars:
@@ -34,7 +36,10 @@ class PostEvaluate:
                 if state.damage or not state.finished:
                     bars.console.print(f"{name}: left out, {state.damage or 'not finished'}")
                     continue
-                bar = bars.add_task(name, total=state.to_evaluate)
+                first = bars.add_task(f"{name}, instructions", total=state.to_evaluate)
+                second = bars.add_task(f"{name}, transitions", total=state.to_evaluate)
                 with locked(run.path):
-                    post_evaluate(run, lambda done, _, bar=bar: bars.update(bar, completed=done))
+                    post_evaluate(run, lambda done, _, bar=first: bars.update(bar, completed=done))
+                    run_transition_test(run, lambda done, _, bar=second: bars.update(bar, completed=done))
+                    solved_trials(run)
         return 0

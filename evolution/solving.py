@@ -1,0 +1,62 @@
+"""How many of its 28 trials each generation's best carried out (Fig. 3 tells fitness only)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import run_trials
+from evolution.config import RunConfig
+from evolution.folder import RunFolder
+from evolution.history import check_array
+from evolution.postevaluation import FOLDER
+from evolution.randomness import Purpose, generator
+from evolution.recorded import recorded_histories
+from evolution.scoring import draw_evolution_trials
+from evolution.storage import DamagedFileError, make_folder
+
+FILE: Final = "solved.npz"
+
+
+def solved_trials(folder: RunFolder) -> NDArray[np.int16]:
+    """Most trials that one of the five best carried out, [G]; computed once and kept.
+
+    The trials are those the generation was scored in; under the reading that gives each genotype
+    starts of its own, they are the first genotype's.
+
+    Raises:
+        DamagedFileError: If a file of the run is damaged.
+    """
+    path, n = _path(folder), folder.config.settings.generations
+    if path.exists():
+        try:
+            arrays = folder.read_arrays(path)
+            check_array(path, arrays, "solved", (n,), np.dtype(np.int16))
+        except DamagedFileError as error:
+            raise DamagedFileError(path, error.found, "remove it and repeat the command") from None
+        return arrays["solved"]
+    solved = np.array(
+        [
+            _most_carried_out(genotypes, folder.config, int(generation))
+            for history in recorded_histories(folder)
+            for generation, genotypes in zip(history.generations, history.best_genotypes, strict=True)
+        ],
+        np.int16,
+    )
+    make_folder(path.parent)
+    folder.write_arrays(path, {"solved": solved})
+    return solved
+
+
+def _path(folder: RunFolder) -> Path:
+    return folder.path / FOLDER / FILE
+
+
+def _most_carried_out(genotypes: NDArray[np.float64], config: RunConfig, generation: int) -> int:
+    rng = generator(config.seed, Purpose.TRIALS, generation)
+    condition, per_area = config.condition, config.settings.trials_per_area
+    trials = draw_evolution_trials(condition.experienced, condition, per_area, config.readings, rng)
+    return int(run_trials(genotypes, trials, config.readings).success.sum(axis=1).max())
