@@ -23,6 +23,7 @@ class Purpose(IntEnum):
     RECORDING = 6
     POST_EVALUATION = 7
     TRANSITIONS = 8
+    STATISTICS = 10
 
 
 def generator(seed: int, purpose: Purpose, generation: int = 0) -> np.random.Generator:

@@ -104,6 +104,6 @@ def transition_successes(
     return success.reshape(len(genotypes), len(transitions), TRIALS).sum(axis=2)
 
 
-def passes(successes: NDArray[np.int64]) -> NDArray[np.bool_]:
+def passes(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
     """Which agents [A] pass a test: more than 75 % in every transition of it."""
     return np.all(4 * successes > 3 * TRIALS, axis=1)

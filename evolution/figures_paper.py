@@ -1,0 +1,196 @@
+"""The paper's figures from our runs: Fig. 3, Table II as bars, Fig. 4, generalisers over time (section VII).
+
+One function per figure; they draw what `evolution.analysis` has computed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from arm2d import Condition
+from evolution import published
+from evolution.analysis import ConditionResults, Results
+from evolution.figures import FAINT, INK, STYLE, running_median
+from evolution.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
+from evolution.transitions import Transition, action_transitions, object_transitions
+
+TITLES: Final = {Condition.WITH_INDICATE: "With-Indicate", Condition.WITH_IGNORE: "With-Ignore"}
+CLASS_COLOURS: Final = {AgentClass.FULL: "#CC79A7", AgentClass.PARTIAL: "#E69F00", AgentClass.NONE: "#7A7A7A"}
+# From pale sand (never) to deep teal (nearly always), lightness falling evenly.
+CATEGORY_MAP: Final = mpl.colors.LinearSegmentedColormap.from_list(
+    "categories", ["#EFECE5", "#CFE0DC", "#7FB8B5", "#2F7F86", "#0D3F4A"]
+)
+
+
+def fitness_figure(results: Results) -> Figure:
+    """Fig. 3: best fitness per generation, one line per run; dots mark the first generation all was solved."""
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.2, 4.1), layout="constrained")
+        panels = figure.subplots(1, len(results.conditions), sharey=True, squeeze=False)[0]
+        for axes, (condition, each) in zip(panels, results.conditions.items(), strict=True):
+            _draw_fitness(axes, each)
+            axes.set_title(TITLES[condition], loc="left", fontweight="bold")
+        panels[0].set_ylabel("best fitness, mean of 28 trials")
+    return figure
+
+
+def _draw_fitness(axes: Axes, results: ConditionResults) -> None:
+    axes.axhline(published.LARGEST_FITNESS, color=FAINT, lw=1.0, ls=(0, (4, 3)))
+    colours = mpl.colormaps["viridis"](np.linspace(0.05, 0.85, max(len(results.runs), 1)))
+    for seed, best, first, colour in zip(
+        results.seeds, results.best, results.first_solved, colours, strict=True
+    ):
+        smooth = running_median(best)
+        axes.plot(smooth, color=colour, lw=1.2)
+        axes.annotate(
+            f"{seed}", (len(best) - 1, smooth[-1]), xytext=(3, 0), textcoords="offset points",
+            va="center", fontsize=7, color=colour,
+        )  # fmt: skip
+        if first >= 0:
+            axes.plot(first, best[first], "o", ms=4.5, color=colour, mec="white", mew=0.7, zorder=4)
+    note = f"{results.at_plateau} of {len(results.runs)} runs end at 18/7"
+    axes.text(0.98, 0.06, note, transform=axes.transAxes, ha="right", fontsize=8.5, color=FAINT)
+    axes.set(xlabel="generation", ylim=(0.0, 2.75))
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def table_figure(results: Results) -> Figure:
+    """Table II as stacked bars: share of agents by category, ours beside the published ones."""
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.2, 3.9), layout="constrained")
+        panels = figure.subplots(1, len(results.conditions), sharey=True, squeeze=False)[0]
+        for axes, (condition, each) in zip(panels, results.conditions.items(), strict=True):
+            _draw_bars(axes, each.counts, published.TABLE_II[condition])
+            axes.set_title(TITLES[condition], loc="left", fontweight="bold")
+        panels[0].set_ylabel("share of agents [%]")
+        handles = [
+            Patch(color=_category_colour(n), label=_category_label(n)) for n in reversed(range(N_CATEGORIES))
+        ]
+        figure.legend(
+            handles=handles, loc="outside right center", frameon=False, fontsize=7.5, title="successes of 80",
+            title_fontsize=8,
+        )  # fmt: skip
+    return figure
+
+
+def _draw_bars(axes: Axes, ours: np.ndarray, theirs: np.ndarray) -> None:
+    for column in range(len(SUBTASKS)):
+        for counts, offset, edge in ((theirs, -0.2, FAINT), (ours, 0.2, INK)):
+            shares = 100 * counts[:, column] / max(counts[:, column].sum(), 1)
+            bottom = 0.0
+            for category, share in enumerate(shares):
+                axes.bar(column + offset, share, 0.36, bottom, color=_category_colour(category), lw=0)
+                bottom += share
+            axes.bar(column + offset, 100, 0.36, color="none", edgecolor=edge, lw=0.8)
+    labels = [f"paper  ours\n{name}" for name in SUBTASKS]
+    axes.set_xticks(range(len(SUBTASKS)), labels, fontsize=8.5)
+    axes.set_ylim(0, 100)
+    axes.tick_params(axis="x", length=0)
+    axes.spines[["top", "right", "bottom"]].set_visible(False)
+
+
+def generalisers_figure(results: Results) -> Figure:
+    """How many of the five best are fully or partially compositional, generation by generation, run by run."""
+    with mpl.rc_context(STYLE):
+        rows = sum(len(each.runs) for each in results.conditions.values())
+        figure = Figure(figsize=(9.2, 1.3 + 0.27 * max(rows, 1)), layout="constrained")
+        panels = figure.subplots(
+            len(results.conditions), 1, sharex=True, squeeze=False,
+            height_ratios=[max(len(each.runs), 1) for each in results.conditions.values()],
+        )[:, 0]  # fmt: skip
+        for axes, (condition, each) in zip(panels, results.conditions.items(), strict=True):
+            _draw_generalisers(axes, each)
+            axes.set_title(TITLES[condition], loc="left", fontweight="bold")
+        panels[-1].set_xlabel("generation")
+        handles = [
+            Line2D([], [], color=CLASS_COLOURS[kind], lw=5, label=str(kind))
+            for kind in (AgentClass.FULL, AgentClass.PARTIAL)
+        ]
+        figure.legend(handles=handles, loc="outside upper right", frameon=False, ncols=2, fontsize=8.5)
+    return figure
+
+
+def _draw_generalisers(axes: Axes, results: ConditionResults) -> None:
+    from evolution.subtasks import classify
+
+    for row, successes in enumerate(results.successes):
+        classes = classify(successes.reshape(-1, successes.shape[-1]), results.condition)
+        for kind in (AgentClass.PARTIAL, AgentClass.FULL):
+            counts = classes[kind].reshape(successes.shape[:2]).sum(axis=1)
+            some = counts > 0
+            axes.vlines(
+                results.generations[some], row + 0.42 - 0.16 * counts[some], row + 0.42,
+                color=CLASS_COLOURS[kind], lw=0.6,
+            )  # fmt: skip
+    axes.set_yticks(range(len(results.runs)), [f"seed {seed}" for seed in results.seeds], fontsize=8)
+    axes.set_ylim(len(results.runs) - 0.5, -0.6)
+    axes.tick_params(axis="y", length=0)
+    axes.spines[["top", "right", "left"]].set_visible(False)
+
+
+def transitions_figure(results: Results) -> Figure:
+    """Fig. 4: mean success in every transition, class by class; how many agents pass stands in the legend."""
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.2, 3.4 * len(results.conditions) + 0.4), layout="constrained")
+        panels = figure.subplots(len(results.conditions), 2, squeeze=False, sharey=True)
+        for pair, (condition, each) in zip(panels, results.conditions.items(), strict=True):
+            for axes, test, transitions in (
+                (pair[0], "action", action_transitions(condition)),
+                (pair[1], "object", object_transitions(condition)),
+            ):
+                _draw_transitions(axes, each, test, transitions)
+                axes.set_title(f"{TITLES[condition]}: {test} word changes", loc="left", fontweight="bold")
+            pair[0].set_ylabel("successful trials [%]")
+    return figure
+
+
+def _draw_transitions(
+    axes: Axes, results: ConditionResults, test: str, transitions: Sequence[Transition]
+) -> None:
+    places = np.arange(len(transitions))
+    axes.axhline(75, color=FAINT, lw=0.8, ls=(0, (4, 3)))
+    for kind, outcome in results.transitions.items():
+        passed, success = getattr(outcome, f"{test}_passed"), getattr(outcome, f"{test}_success")
+        label = f"{kind}: {passed:,} of {outcome.agents:,} pass"
+        if outcome.agents:
+            axes.plot(places, 100 * success, "o-", ms=4, lw=0.8, color=CLASS_COLOURS[kind], label=label)
+        else:
+            axes.plot([], [], "o-", ms=4, color=CLASS_COLOURS[kind], label=f"{kind}: no agent")
+    axes.set_xticks(places, [_short(each, test) for each in transitions], rotation=60, ha="right", fontsize=7)
+    axes.set_ylim(-4, 104)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False, fontsize=7.5, loc="lower right", bbox_to_anchor=(1.0, 0.02))
+
+
+def _short(transition: Transition, test: str) -> str:
+    """What changes, with what stays in brackets."""
+    before, after = transition.before, transition.after
+    if test == "action":
+        return f"{before.action.name} → {after.action.name} ({before.object.name.capitalize()})"
+    return f"{before.object.name.capitalize()} → {after.object.name.capitalize()} ({before.action.name})"
+
+
+def _category_colour(category: int):
+    return CATEGORY_MAP(category / (N_CATEGORIES - 1))
+
+
+def _category_label(category: int) -> str:
+    return "0" if category == 0 else f"{8 * (category - 1) + 1} to {8 * category}"
+
+
+def all_figures(results: Results) -> Mapping[str, Figure]:
+    """Every figure of this file, by the name of its file."""
+    return {
+        "fitness": fitness_figure(results),
+        "table-ii": table_figure(results),
+        "transitions": transitions_figure(results),
+        "generalisers": generalisers_figure(results),
+    }
