@@ -24,6 +24,7 @@ from evolution.commands.repair import Repair
 DESCRIPTION: Final = "An arm that obeys two-word instructions: evolve its controllers, test them, show them."
 BAD_INPUT: Final = 2
 INTERRUPTED: Final = 130
+BROKEN_PIPE: Final = 141
 
 Command = Evolve | Evaluate | Plot | Port | PostEvaluate | Repair
 
@@ -35,6 +36,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
     try:
         return parse(sys.argv[1:] if arguments is None else arguments).run()
+    except BrokenPipeError:
+        # Whoever read our output has seen enough; Python must not complain of it when it ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return BROKEN_PIPE
     except (ValueError, OSError) as error:
         print(f"wordarm: {_sentence(error)}", file=sys.stderr)
         return BAD_INPUT

@@ -75,11 +75,10 @@ class RunFolder:
             ValueError: If the folder holds another run, or other things.
             OSError: If it cannot be written.
         """
-        if not (path / CONFIG).exists():
-            refuse_other(path, config)
-            make_folder(path / PARTS)
-            write_atomically(path / CONFIG, config.to_toml().encode())
         refuse_other(path, config)
+        make_folder(path / PARTS)
+        if not (path / CONFIG).exists():
+            write_atomically(path / CONFIG, config.to_toml().encode())
         return cls(path, config)
 
     @property
@@ -138,9 +137,14 @@ class RunFolder:
         Raises:
             DamagedFileError: If the file is not what was written, or is another run's.
         """
-        arrays = read_arrays(path)
-        if str(arrays.pop("config_sha256", "")) != self.identity:
-            raise DamagedFileError(path, f"it does not belong to this {CONFIG}")
+        try:
+            arrays = read_arrays(path)
+            if str(arrays.pop("config_sha256", "")) != self.identity:
+                raise DamagedFileError(path, f"it does not belong to this {CONFIG}")
+        except DamagedFileError as error:
+            raise DamagedFileError(
+                path, error.found, f"put it right with: wordarm repair {self.path}"
+            ) from None
         return arrays
 
     def write_arrays(self, path: Path, arrays: dict[str, NDArray]) -> None:

@@ -104,7 +104,7 @@ def _sound_checkpoint(folder: RunFolder, watcher: Watcher) -> Checkpoint | None:
     try:
         return load_checkpoint(folder)
     except DamagedFileError as error:
-        watcher.on_note(f"{error}; going on from the parts instead")
+        watcher.on_note(f"{error.path} is damaged ({error.found}); going on from the parts instead")
         return None
 
 

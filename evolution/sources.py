@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,13 +14,12 @@ from arm2d import Condition, Readings, check_genotypes
 from evolution.algorithm import rank as ranking
 from evolution.config import RunConfig
 from evolution.folder import CHAMPIONS, RunFolder
+from evolution.genotype_files import read_genotype_file
 from evolution.recorded import recorded_generation, recorded_histories
 from evolution.replay import population_at
 from evolution.settings import N_BEST
 
 SHIPPED: Final = Path(__file__).parent / "champions"
-# Far above any file of genotypes; keeps a mistaken or malicious file from filling the memory.
-LARGEST_FILE: Final = 64 * 2**20
 
 
 @dataclass(frozen=True)
@@ -107,7 +104,7 @@ def _of_generation(folder: RunFolder, generation: int, rank: int) -> NDArray[np.
 
 def _from_file(path: Path, rank: int, condition: Condition | None) -> Source:
     """A genotype of a file, with the config it carries or, if it carries none, the default readings."""
-    arrays = _read_genotype_file(path)
+    arrays = read_genotype_file(path)
     if "config" not in arrays:
         config = RunConfig(condition or Condition.WITH_INDICATE)
         return _pick(path, arrays, rank, config, None)
@@ -116,31 +113,6 @@ def _from_file(path: Path, rank: int, condition: Condition | None) -> Source:
     except ValueError as error:
         raise ValueError(f"{path} carries a config that cannot be read: {error}") from None
     return _of_known_condition(_pick(path, arrays, rank, config, None), condition)
-
-
-def _read_genotype_file(path: Path) -> Mapping[str, NDArray]:
-    """Named arrays of an .npz, or the only one of an .npy as "genotypes"."""
-    refusal = f"{path} is not a genotype file: give an .npz with an array genotypes [P, 84], or an .npy"
-    if path.stat().st_size > LARGEST_FILE:
-        raise ValueError(f"{refusal}; this file is larger than {LARGEST_FILE // 2**20} MB")
-    data = io.BytesIO(path.read_bytes())
-    try:
-        if zipfile.is_zipfile(data):
-            return _read_archive(data)
-        data.seek(0)
-        return {"genotypes": np.lib.format.read_array(data, allow_pickle=False)}
-    except Exception as error:  # whatever a broken or foreign file brings about in the readers
-        raise ValueError(f"{refusal} ({error})") from None
-
-
-def _read_archive(data: io.BytesIO) -> dict[str, NDArray]:
-    """The arrays of an .npz that does not swell when unpacked."""
-    with zipfile.ZipFile(data) as archive:
-        if sum(each.file_size for each in archive.infolist()) > LARGEST_FILE:
-            raise ValueError(f"its content is larger than {LARGEST_FILE // 2**20} MB")
-    data.seek(0)
-    with np.load(data, allow_pickle=False) as arrays:
-        return {name: arrays[name] for name in arrays.files}
 
 
 def _pick(

@@ -6,9 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tyro.conf import Positional
-
-from arm2d import Condition
+from evolution.commands.agent import AgentCommand
 
 if TYPE_CHECKING:
     from evolution.evaluation import Evaluation
@@ -16,20 +14,8 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Evaluate:
+class Evaluate(AgentCommand):
     """Let an agent carry out all nine instructions: a table, a heat map and, for a run, its fitness."""
-
-    source: Positional[str]
-    """Run folder, genotype file (.npz, .npy) or name of a shipped champion."""
-
-    generation: int | None = None
-    """Generation of the run, from 0. By default its champions are meant."""
-
-    rank: int = 0
-    """0 is the best of the generation, of the champions, or of the file."""
-
-    condition: str | None = None
-    """Condition of a bare genotype file: with-indicate (the default) or with-ignore."""
 
     trials_per_area: int = 40
     """Trials of each instruction from each of the two start areas."""
@@ -45,11 +31,9 @@ class Evaluate:
         from rich.console import Console
 
         from evolution.evaluation import evaluate
-        from evolution.sources import find_source
         from evolution.tables import terminal_table
 
-        condition = None if self.condition is None else Condition.parse(self.condition)
-        source = find_source(self.source, generation=self.generation, rank=self.rank, condition=condition)
+        source = self.find_agent()
         result = evaluate(
             source.genotype,
             source.condition,

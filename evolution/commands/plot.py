@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
-from tyro.conf import Positional
+from tyro.conf import Positional, arg
 
 if TYPE_CHECKING:
     from evolution.folder import RunFolder
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 class Plot:
     """Draw best and mean fitness of a run over its generations, even while it is going on."""
 
-    folder: Positional[Path]
+    folder: Annotated[Positional[Path], arg(metavar="RUN")]
     """Run folder."""
 
     output: Path | None = None

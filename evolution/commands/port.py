@@ -4,31 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
-from tyro.conf import Positional
+from tyro.conf import Positional, arg
 
-from arm2d import Condition, Instruction
+from arm2d import Instruction
+from evolution.commands.agent import AgentCommand
 
 
-@dataclass(frozen=True)
-class Port:
+@dataclass(frozen=True, kw_only=True)
+class Port(AgentCommand):
     """Show an agent carrying out an instruction on the humanoid, as a video."""
 
-    source: Positional[str]
-    """Run folder, genotype file (.npz, .npy) or name of a shipped champion."""
-
-    instruction: Positional[str]
+    instruction: Annotated[Positional[str], arg(metavar="INSTRUCTION")]
     """An action word and an object word, such as "touch green"."""
-
-    generation: int | None = None
-    """Generation of the run, from 0. By default its champions are meant."""
-
-    rank: int = 0
-    """0 is the best of the generation, of the champions, or of the file."""
-
-    condition: str | None = None
-    """Condition of a bare genotype file: with-indicate (the default) or with-ignore."""
 
     start_area: Literal["right", "left"] = "right"
     """Where S1 starts: right or left."""
@@ -45,11 +34,9 @@ class Port:
     def run(self) -> int:
         """Record the trial and let the humanoid follow it."""
         instruction = Instruction.parse(self.instruction)
-        condition = None if self.condition is None else Condition.parse(self.condition)
 
         from evolution.recording import record_instruction
-        from evolution.sources import find_source
 
-        source = find_source(self.source, generation=self.generation, rank=self.rank, condition=condition)
+        source = self.find_agent()
         record = record_instruction(source, instruction, self.start_area, self.trial_seed)
         raise NotImplementedError(f"the humanoid cannot follow {record.instruction} yet")

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
-from tyro.conf import Positional
+from tyro.conf import Positional, arg
 
 
 @dataclass(frozen=True)
 class Repair:
     """Compute the damaged or missing files of a run again, with the bits they had."""
 
-    folder: Positional[Path]
+    folder: Annotated[Positional[Path], arg(metavar="RUN")]
     """Run folder."""
 
     def run(self) -> int:

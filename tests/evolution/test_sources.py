@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from small_runs import SMALL
 
 from arm2d import Condition, Readings
-from evolution import sources
+from evolution import genotype_files, sources
 from evolution.folder import RunFolder
 from evolution.recorded import recorded_generation, recorded_history
 from evolution.replay import population_at
@@ -122,7 +122,7 @@ def test_a_file_has_no_generations(tmp_path):
 
 
 def test_a_file_that_would_fill_the_memory_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(sources, "LARGEST_FILE", 10_000)
+    monkeypatch.setattr(genotype_files, "LARGEST_FILE", 10_000)
     np.savez_compressed(tmp_path / "bomb.npz", genotypes=np.zeros((1000, 84)))
     with pytest.raises(ValueError, match="its content is larger than"):
         find_source(str(tmp_path / "bomb.npz"))
