@@ -11,6 +11,7 @@ from typing import Final
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -25,13 +26,13 @@ from evolution.transitions import Transition, action_transitions, object_transit
 TITLES: Final = {Condition.WITH_INDICATE: "With-Indicate", Condition.WITH_IGNORE: "With-Ignore"}
 CLASS_COLOURS: Final = {AgentClass.FULL: "#CC79A7", AgentClass.PARTIAL: "#E69F00", AgentClass.NONE: "#7A7A7A"}
 # From pale sand (never) to deep teal (nearly always), lightness falling evenly.
-CATEGORY_MAP: Final = mpl.colors.LinearSegmentedColormap.from_list(
+CATEGORY_MAP: Final = LinearSegmentedColormap.from_list(
     "categories", ["#EFECE5", "#CFE0DC", "#7FB8B5", "#2F7F86", "#0D3F4A"]
 )
 
 
 def fitness_figure(results: Results) -> Figure:
-    """Fig. 3: best fitness per generation, one line per run; dots mark the first generation all was solved."""
+    """Fig. 3: best fitness per generation, a line per run; a dot where one genotype first solved all."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 4.1), layout="constrained")
         panels = figure.subplots(1, len(results.conditions), sharey=True, squeeze=False)[0]
@@ -98,7 +99,7 @@ def _draw_bars(axes: Axes, ours: np.ndarray, theirs: np.ndarray) -> None:
 
 
 def generalisers_figure(results: Results) -> Figure:
-    """How many of the five best are fully or partially compositional, generation by generation, run by run."""
+    """How many of the five best are fully or partially compositional, for each late generation and run."""
     with mpl.rc_context(STYLE):
         rows = sum(len(each.runs) for each in results.conditions.values())
         figure = Figure(figsize=(9.2, 1.3 + 0.27 * max(rows, 1)), layout="constrained")
@@ -132,6 +133,8 @@ def _draw_generalisers(axes: Axes, results: ConditionResults) -> None:
             )  # fmt: skip
     axes.set_yticks(range(len(results.runs)), [f"seed {seed}" for seed in results.seeds], fontsize=8)
     axes.set_ylim(len(results.runs) - 0.5, -0.6)
+    if len(results.generations):
+        axes.set_xlim(results.generations[0], results.generations[-1] + 1)
     axes.tick_params(axis="y", length=0)
     axes.spines[["top", "right", "left"]].set_visible(False)
 
@@ -139,7 +142,7 @@ def _draw_generalisers(axes: Axes, results: ConditionResults) -> None:
 def transitions_figure(results: Results) -> Figure:
     """Fig. 4: mean success in every transition, class by class; how many agents pass stands in the legend."""
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(9.2, 3.4 * len(results.conditions) + 0.4), layout="constrained")
+        figure = Figure(figsize=(9.2, 4.3 * len(results.conditions)), layout="constrained")
         panels = figure.subplots(len(results.conditions), 2, squeeze=False, sharey=True)
         for pair, (condition, each) in zip(panels, results.conditions.items(), strict=True):
             for axes, test, transitions in (
@@ -161,13 +164,14 @@ def _draw_transitions(
         passed, success = getattr(outcome, f"{test}_passed"), getattr(outcome, f"{test}_success")
         label = f"{kind}: {passed:,} of {outcome.agents:,} pass"
         if outcome.agents:
-            axes.plot(places, 100 * success, "o-", ms=4, lw=0.8, color=CLASS_COLOURS[kind], label=label)
+            axes.plot(places, 100 * success, "o", ms=5, alpha=0.9, color=CLASS_COLOURS[kind], label=label)
         else:
-            axes.plot([], [], "o-", ms=4, color=CLASS_COLOURS[kind], label=f"{kind}: no agent")
+            axes.plot([], [], "o", ms=5, color=CLASS_COLOURS[kind], label=f"{kind}: no agent")
     axes.set_xticks(places, [_short(each, test) for each in transitions], rotation=60, ha="right", fontsize=7)
     axes.set_ylim(-4, 104)
     axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(frameon=False, fontsize=7.5, loc="lower right", bbox_to_anchor=(1.0, 0.02))
+    axes.grid(axis="x", color=FAINT, alpha=0.25, lw=0.5)
+    axes.legend(frameon=False, fontsize=7.5, loc="upper left", bbox_to_anchor=(0.0, -0.6), ncols=1)
 
 
 def _short(transition: Transition, test: str) -> str:

@@ -1,0 +1,19 @@
+"""What the tests of several packages share."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+
+@pytest.fixture(scope="session")
+def evolved() -> np.ndarray:
+    """Genotypes [60, 84] of evolved agents: random ones seldom touch anything."""
+    with np.load(Path(__file__).with_name("evolved.npz"), allow_pickle=False) as stored:
+        return stored["genotypes"]
+
+
+@pytest.fixture(scope="session")
+def evolved_agent(evolved) -> np.ndarray:
+    """The best [84] of the With-Indicate run that got furthest."""
+    return evolved[15]

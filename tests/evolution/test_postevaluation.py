@@ -1,0 +1,111 @@
+"""Post-evaluation, transition tests and analysis of a short experiment."""
+
+import shutil
+
+import numpy as np
+import pytest
+
+from arm2d import Condition
+from evolution.analysis import analyse
+from evolution.config import RunConfig
+from evolution.experiment import open_experiment
+from evolution.figures_paper import all_figures
+from evolution.folder import RunFolder
+from evolution.postevaluation import (
+    evaluate_agents,
+    late_spans,
+    part_path,
+    post_evaluate,
+    read_post_evaluation,
+)
+from evolution.run import evolve
+from evolution.settings import Settings
+from evolution.solving import solved_trials
+from evolution.storage import DamagedFileError
+from evolution.transition_test import run_transition_test
+
+SETTINGS = Settings(population=12, elites=2, parents=6, generations=9)
+
+
+@pytest.fixture(scope="module")
+def experiment(tmp_path_factory):
+    """Two short runs of each condition, post-evaluated and tested."""
+    path = tmp_path_factory.mktemp("experiment")
+    for condition in Condition:
+        for seed in (1, 2):
+            folder = path / condition / f"seed-{seed:04d}"
+            evolve(folder, RunConfig(condition, seed, SETTINGS))
+            run = RunFolder.open(folder)
+            post_evaluate(run)
+            run_transition_test(run)
+    return path
+
+
+def test_last_third_of_the_generations_is_post_evaluated(experiment):
+    run = open_experiment(experiment).all_runs[0]
+    assert read_post_evaluation(run).generations.tolist() == [6, 7, 8]
+
+
+def test_every_agent_is_given_trials_of_its_own(experiment, evolved):
+    run = open_experiment(experiment).all_runs[0]
+    unsure = evolved[20]  # carries some instructions out in some trials only
+    twins = evaluate_agents(run.config, 8, np.stack([unsure] * 5))
+    assert len(np.unique(twins, axis=0)) > 1
+
+
+def test_post_evaluation_recomputed_gives_the_same_numbers(experiment, tmp_path):
+    run = open_experiment(experiment).all_runs[0]
+    copy = RunFolder.open(shutil.copytree(run.path, tmp_path / "copy"))
+    part_path(copy, late_spans(copy)[0]).unlink()
+    np.testing.assert_array_equal(post_evaluate(copy).successes, read_post_evaluation(run).successes)
+
+
+def test_damaged_part_is_named_with_the_command_that_recomputes_it(experiment, tmp_path):
+    run = open_experiment(experiment).all_runs[0]
+    copy = RunFolder.open(shutil.copytree(run.path, tmp_path / "copy"))
+    path = part_path(copy, late_spans(copy)[0])
+    path.write_bytes(path.read_bytes()[:-100])
+    with pytest.raises(DamagedFileError, match=r"is damaged .* remove it and repeat: wordarm postevaluate"):
+        read_post_evaluation(copy)
+
+
+def test_unfinished_run_is_not_post_evaluated(tmp_path):
+    run = RunFolder.create(tmp_path / "run", RunConfig(settings=SETTINGS))
+    with pytest.raises(ValueError, match="is not finished; go on with: wordarm evolve"):
+        post_evaluate(run)
+
+
+def test_solved_trials_are_counted_for_every_generation(experiment):
+    solved = solved_trials(open_experiment(experiment).all_runs[0])
+    assert len(solved) == 9
+    assert 0 <= solved.min() <= solved.max() <= 28
+
+
+def test_analysis_counts_every_agent_of_every_run(experiment):
+    results = analyse(open_experiment(experiment))
+    assert list(results.conditions) == list(Condition)
+    for each in results.conditions.values():
+        assert each.n_agents == 2 * 3 * 5
+        assert each.counts.sum(axis=0).tolist() == [30] * 4
+        assert not each.missing
+    assert set(results.comparisons) == set(results.published_tests)
+
+
+def test_analysis_names_what_is_missing_and_goes_on(experiment, tmp_path):
+    copy = shutil.copytree(experiment, tmp_path / "copy")
+    shutil.rmtree(copy / "with-indicate" / "seed-0002" / "postevaluation")
+    results = analyse(open_experiment(copy))
+    assert len(results.conditions[Condition.WITH_INDICATE].runs) == 1
+    (sentence,) = results.missing
+    assert sentence.startswith("with-indicate, seed 2: left out, not post-evaluated")
+
+
+def test_every_figure_can_be_drawn(experiment):
+    figures = all_figures(analyse(open_experiment(experiment)))
+    assert set(figures) == {"fitness", "table-ii", "transitions", "generalisers"}
+    assert all(figure.axes for figure in figures.values())
+
+
+def test_folder_without_runs_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="holds no runs"):
+        open_experiment(tmp_path)

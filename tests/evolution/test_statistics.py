@@ -1,0 +1,65 @@
+"""Tests between conditions, against SciPy and cases worked out by hand."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from evolution.statistics import bootstrap_interval, compare, mean_interval, permutation_test
+from evolution.statistics import _mean_statistic as mean_statistic
+from evolution.statistics import _rank_statistic as rank_statistic
+
+RNG = np.random.default_rng(0)
+
+
+def rng():
+    return np.random.default_rng(5)
+
+
+def test_exact_mann_whitney_agrees_with_scipy_without_ties():
+    first, second = RNG.normal(size=7), RNG.normal(0.8, size=6)
+    ours = permutation_test(first, second, rank_statistic, rng())
+    theirs = stats.mannwhitneyu(first, second, method="exact").pvalue
+    assert ours == pytest.approx(theirs, rel=1e-12)
+
+
+def test_permutation_test_of_means_agrees_with_scipy():
+    first, second = RNG.normal(size=5), RNG.normal(1.0, size=6)
+    ours = permutation_test(first, second, mean_statistic, rng())
+    theirs = stats.permutation_test(
+        (first, second), lambda a, b: abs(a.mean() - b.mean()), n_resamples=np.inf, alternative="greater"
+    ).pvalue
+    assert ours == pytest.approx(theirs)
+
+
+def test_two_equal_groups_do_not_differ():
+    values = np.array([0.0, 0.1, 0.2])
+    result = compare(values, values, rng())
+    assert (result.difference, result.cliffs_delta) == (0.0, 0.0)
+    assert result.mann_whitney_p == result.permutation_p == 1.0
+    assert result.interval[0] < 0 < result.interval[1]
+
+
+def test_groups_apart_give_the_smallest_p_there_is():
+    result = compare(np.array([1.0, 2.0, 3.0]), np.array([-1.0, -2.0, -3.0]), rng())
+    assert result.mann_whitney_p == pytest.approx(2 / 20)
+    assert result.cliffs_delta == 1.0
+
+
+def test_many_runs_are_permuted_by_chance_and_p_is_never_zero():
+    first, second = np.arange(12.0), np.arange(12.0) + 100
+    p = permutation_test(first, second, mean_statistic, rng())
+    assert 0 < p < 1e-4
+
+
+def test_bootstrap_interval_of_a_constant_is_the_constant():
+    assert mean_interval(np.full(8, 0.25), rng()) == (0.25, 0.25)
+
+
+def test_bootstrap_resamples_each_group_apart():
+    low, high = bootstrap_interval([np.zeros(4), np.ones(4)], lambda g: g[1].mean(1) - g[0].mean(1), rng())
+    assert (low, high) == (1.0, 1.0)
+
+
+def test_comparison_without_runs_is_refused():
+    with pytest.raises(ValueError, match="a comparison needs runs of both conditions; there are 0 and 3"):
+        compare(np.empty(0), np.ones(3), rng())
