@@ -57,8 +57,8 @@ def compare(first: NDArray[np.float64], second: NDArray[np.float64], rng: np.ran
         means=(float(first.mean()), float(second.mean())),
         difference=float(first.mean() - second.mean()),
         interval=bootstrap_interval([first, second], _difference_of_means, rng),
-        mann_whitney_p=permutation_test(first, second, _rank_statistic, rng),
-        permutation_p=permutation_test(first, second, _mean_statistic, rng),
+        mann_whitney_p=permutation_test(first, second, rank_statistic, rng),
+        permutation_p=permutation_test(first, second, mean_statistic, rng),
         cliffs_delta=float(delta),
     )
 
@@ -127,11 +127,12 @@ def _mask(indices: tuple[int, ...], total: int) -> NDArray[np.bool_]:
     return mask
 
 
-def _mean_statistic(values: NDArray[np.float64], mask: NDArray[np.bool_]) -> float:
+def mean_statistic(values: NDArray[np.float64], mask: NDArray[np.bool_]) -> float:
+    """Distance between the means of the masked values and of the others."""
     return abs(float(values[mask].mean() - values[~mask].mean()))
 
 
-def _rank_statistic(values: NDArray[np.float64], mask: NDArray[np.bool_]) -> float:
+def rank_statistic(values: NDArray[np.float64], mask: NDArray[np.bool_]) -> float:
     """Distance of Mann-Whitney's U from its expectation, ties counting one half."""
     u = (0.5 * (1.0 + np.sign(np.subtract.outer(values[mask], values[~mask])))).sum()
     return abs(float(u) - 0.5 * mask.sum() * (~mask).sum())

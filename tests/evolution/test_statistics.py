@@ -4,9 +4,14 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from evolution.statistics import bootstrap_interval, compare, mean_interval, permutation_test
-from evolution.statistics import _mean_statistic as mean_statistic
-from evolution.statistics import _rank_statistic as rank_statistic
+from evolution.statistics import (
+    bootstrap_interval,
+    compare,
+    mean_interval,
+    mean_statistic,
+    permutation_test,
+    rank_statistic,
+)
 
 RNG = np.random.default_rng(0)
 
