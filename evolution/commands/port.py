@@ -36,7 +36,17 @@ class Port(AgentCommand):
         instruction = Instruction.parse(self.instruction)
 
         from evolution.recording import record_instruction
+        from evolution.storage import make_folder
 
         source = self.find_agent()
         record = record_instruction(source, instruction, self.start_area, self.trial_seed)
-        raise NotImplementedError(f"the humanoid cannot follow {record.instruction} yet")
+
+        from mujoco_port.port import port_trial  # pyright: ignore[reportMissingImports]
+
+        home = Path() if source.folder is None else source.folder.path
+        words = f"{instruction.action.name}-{instruction.object.name}".lower()
+        output = self.output or home / "videos" / f"{source.name}-{words}.mp4"
+        make_folder(output.parent)
+        port_trial(record, output, robot=self.robot)
+        print(output)
+        return 0
