@@ -20,13 +20,14 @@ from evolution.commands.plot import Plot
 from evolution.commands.port import Port
 from evolution.commands.postevaluate import PostEvaluate
 from evolution.commands.repair import Repair
+from evolution.commands.ship import Ship
 
 DESCRIPTION: Final = "An arm that obeys two-word instructions: evolve its controllers, test them, show them."
 BAD_INPUT: Final = 2
 INTERRUPTED: Final = 130
 BROKEN_PIPE: Final = 141
 
-Command = Evolve | Evaluate | Plot | Port | PostEvaluate | Repair
+Command = Evolve | Evaluate | Plot | Port | PostEvaluate | Repair | Ship
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -66,6 +67,7 @@ def _parse(arguments: Sequence[str], evolve: Evolve) -> Command:
         | Annotated[Port, subcommand("port")]
         | Annotated[PostEvaluate, subcommand("postevaluate")]
         | Annotated[Repair, subcommand("repair")]
+        | Annotated[Ship, subcommand("ship")]
     )
     return tyro.cli(commands, prog="wordarm", description=DESCRIPTION, args=arguments)  # pyright: ignore
 

@@ -20,7 +20,9 @@ from evolution.postevaluation import (
 )
 from evolution.run import evolve
 from evolution.settings import Settings
+from evolution.shipping import notable_agents, ship
 from evolution.solving import solved_trials
+from evolution.sources import find_source
 from evolution.storage import DamagedFileError
 from evolution.transition_test import run_transition_test
 
@@ -109,3 +111,16 @@ def test_every_figure_can_be_drawn(experiment):
 def test_folder_without_runs_is_refused(tmp_path):
     with pytest.raises(ValueError, match="holds no runs"):
         open_experiment(tmp_path)
+
+
+def test_shipped_agents_are_found_again_with_their_world_and_scores(experiment, tmp_path):
+    results = analyse(open_experiment(experiment))
+    paths = ship(results, tmp_path)
+    assert {each.stem for each in paths} <= {"best-generaliser", "best-specialist", "with-ignore"}
+    agents = notable_agents(results)
+    for path in paths:
+        source, agent = find_source(str(path)), agents[path.stem]
+        assert source.condition is agent.run.config.condition
+        assert source.readings == agent.run.config.readings
+        rank = find_source(str(agent.run.path), generation=agent.generation, rank=agent.rank)
+        np.testing.assert_array_equal(source.genotype, rank.genotype)
