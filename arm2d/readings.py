@@ -58,7 +58,7 @@ class Readings:
     """2.9, 4.6 and 34.4 degrees as printed, or the 0.05, 0.08 and 0.6 rad that round to them."""
 
     success: Literal["f1_f2", "f1_f2_f3"] = "f1_f2"
-    """"F_tot = 1", though the sum reaches 3: F1 = F2 = 1, or F3 > 0.99 as well."""
+    """"F_tot = 1", though the sum reaches 3: F1 = F2 = 1, or F3 > 0.99 as well where the action has an F3."""
 
     run_counting: Literal["uninterrupted", "cumulative"] = "uninterrupted"
     """"uninterrupted interval" (III), "number of time steps" (VI): a bad step resets the count, or not."""

@@ -10,7 +10,7 @@ from tyro.conf import Positional
 
 @dataclass(frozen=True)
 class Ship:
-    """Write the best generaliser, the best specialist and the best With-Ignore agent to files of their own."""
+    """Write best generaliser, best specialist and best With-Ignore agent to files of their own."""
 
     experiment: Positional[Path]
     """Folder of an experiment that was post-evaluated."""
