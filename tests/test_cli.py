@@ -187,6 +187,7 @@ def test_a_sound_run_needs_no_repair(run, capsys):
             ["port", "{run}", "touch yellow"],
             "unknown object word 'yellow'; this world knows blue, green, red",
         ),
+        (["port", "{run}", "touch blue", "--robot=asimo"], "unknown robot 'asimo'; there are: icub"),
         (["port", "{run}", "touch"], "has 1 words, not two"),
         (["port", "{run}", "ignore blue"], "with-indicate has no instruction IGNORE Blue"),
     ],

@@ -26,7 +26,7 @@ class Port(AgentCommand):
     """Start angle and object positions follow from it."""
 
     robot: str = "icub"
-    """Which humanoid."""
+    """Which humanoid; an unknown name lists those there are."""
 
     output: Path | None = None
     """The video. By default `videos/<agent>-<instruction>.mp4` in the run folder, or in the current one."""
@@ -37,12 +37,12 @@ class Port(AgentCommand):
 
         from evolution.recording import record_instruction
         from evolution.storage import make_folder
+        from models.robots import get_robot
+        from mujoco_port.port import port_trial
 
+        get_robot(self.robot)  # refuses unknown names before anything is made
         source = self.find_agent()
         record = record_instruction(source, instruction, self.start_area, self.trial_seed)
-
-        from mujoco_port.port import port_trial  # pyright: ignore[reportMissingImports]
-
         home = Path() if source.folder is None else source.folder.path
         words = f"{instruction.action.name}-{instruction.object.name}".lower()
         output = self.output or home / "videos" / f"{source.name}-{words}.mp4"
