@@ -2,7 +2,7 @@
 
 VENV ?= .venv
 DEMO ?= demo
-DEMO_SEED ?= 7
+DEMO_SEED ?= 13
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 

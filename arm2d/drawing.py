@@ -8,7 +8,7 @@ Lengths are in [cm]; the arm's base J1 is at the origin, x to the agent's right.
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,6 +18,8 @@ from matplotlib.patches import Circle, Wedge
 from arm2d import constants as c
 from arm2d.instructions import ObjectWord
 from arm2d.trials import TrialRecord
+
+Shape = TypeVar("Shape", Circle, Wedge)
 
 # Colour-blind safe; they mean the objects everywhere in the project.
 OBJECT_COLOURS: Final = {ObjectWord.BLUE: "#0072B2", ObjectWord.GREEN: "#009E73", ObjectWord.RED: "#D55E00"}
@@ -40,7 +42,7 @@ class Scene:
     Args:
         axes: Where to draw; cleared of ticks and scaled to the world.
         record: The trial.
-        caption: Whether to write instruction and time into the picture.
+        caption: Whether to write the instruction above the world; the time stands below it anyway.
     """
 
     def __init__(self, axes: Axes, record: TrialRecord, *, caption: bool = True) -> None:
@@ -48,31 +50,29 @@ class Scene:
         _prepare(axes)
         _draw_sectors(axes, record)
         self._camera = [
-            axes.add_patch(Wedge((0, 0), CAMERA_RANGE, 0, 1, color=CAMERA, alpha=alpha, lw=0, zorder=1))
+            _add(axes, Wedge((0, 0), CAMERA_RANGE, 0, 1, color=CAMERA, alpha=alpha, lw=0, zorder=1))
             for alpha in (0.16, 0.3, 0.16)
         ]
         self._discs = [
-            axes.add_patch(Circle((0, 0), record.readings.object_radius, color=colour, lw=0, zorder=3))
+            _add(axes, Circle((0, 0), record.readings.object_radius, color=colour, lw=0, zorder=3))
             for colour in OBJECT_COLOURS.values()
         ]
         self._halos = [
-            axes.add_patch(
-                Circle((0, 0), record.readings.object_radius + 3.5, fill=False, ec=CONTACT, lw=1.6, zorder=3)
+            _add(
+                axes,
+                Circle((0, 0), record.readings.object_radius + 3.5, fill=False, ec=CONTACT, lw=1.6, zorder=3),
             )
             for _ in OBJECT_COLOURS
         ]
         (self._s1,) = axes.plot([], [], color=ARM, lw=7, solid_capstyle="round", zorder=4)
         (self._s2,) = axes.plot([], [], color=ARM, lw=4.5, solid_capstyle="round", zorder=4)
         self._joints: Line2D = axes.plot([], [], "o", color=JOINT, mec=ARM, mew=1.6, ms=6.5, zorder=5)[0]
-        self._caption = self._clock = None
         if caption:
-            self._caption = axes.text(
-                0.5, 0.985, str(record.instruction), ha="center", va="top", transform=axes.transAxes
-            )
-            self._caption.set(fontsize=14, fontweight="bold")
-            self._caption.set_color(OBJECT_COLOURS[record.instruction.object])
-            self._clock = axes.text(0.985, 0.03, "", ha="right", va="bottom", transform=axes.transAxes)
-            self._clock.set(fontsize=9, color=INK)
+            place = {"ha": "center", "va": "top", "transform": axes.transAxes}
+            words = axes.text(0.5, 0.985, str(record.instruction), fontsize=14, fontweight="bold", **place)
+            words.set_color(OBJECT_COLOURS[record.instruction.object])
+        self._clock = axes.text(0.985, 0.03, "", ha="right", va="bottom", transform=axes.transAxes)
+        self._clock.set(fontsize=9, color=INK)
         self.show(0)
 
     def show(self, step: float) -> None:
@@ -96,8 +96,7 @@ class Scene:
             disc.set_center(tuple(centre))
             halo.set_center(tuple(centre))
             halo.set_visible(bool(touches))
-        if self._clock is not None:
-            self._clock.set_text(f"{step * c.DT:.1f} s")
+        self._clock.set_text(f"{step * c.DT:.1f} s")
 
 
 def draw_state(axes: Axes, record: TrialRecord, step: int) -> None:
@@ -136,6 +135,12 @@ def arm_points(alpha: float, beta: float) -> tuple[np.ndarray, np.ndarray]:
     a, h = np.radians(alpha), np.radians(alpha + beta)
     joint = c.S1_LENGTH * np.array([np.cos(a), np.sin(a)])
     return joint, joint + c.S2_LENGTH * np.array([np.cos(h), np.sin(h)])
+
+
+def _add(axes: Axes, patch: Shape) -> Shape:
+    """Add a patch to axes and give it back, with its own type."""
+    axes.add_patch(patch)
+    return patch
 
 
 def _prepare(axes: Axes) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import chain
 from pathlib import Path
 from typing import Final
 
@@ -28,7 +29,7 @@ class Panel:
         record: The trial.
         width_px: Width and
         height_px: height of a frame.
-        caption: Whether instruction and time are written into it.
+        caption: Whether the instruction is written into it.
     """
 
     def __init__(self, record: TrialRecord, width_px: int, height_px: int, *, caption: bool = True) -> None:
@@ -53,21 +54,34 @@ def frames(record: TrialRecord, width_px: int = 960, height_px: int = 720) -> It
 
 
 def render_video(record: TrialRecord, path: Path | str) -> Path:
-    """Write a trial as an MP4 in real time; the file appears when it is complete.
+    """Write a trial as an MP4 in real time.
 
     Raises:
         OSError: If the file cannot be written.
     """
-    import imageio.v2 as imageio
+    return write_mp4(frames(record), Path(path), round(FRAMES_PER_STEP / DT))
 
-    path = Path(path)
+
+def write_mp4(pictures: Iterable[NDArray[np.uint8]], path: Path, per_second: int) -> Path:
+    """Write frames [H, W, 3] as an MP4; the file appears when it is complete, or not at all.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
+    import imageio_ffmpeg
+
+    pictures = iter(pictures)
+    first = next(pictures)
     unfinished = path.with_name(f".{path.stem}.unfinished{path.suffix}")
     try:
-        with imageio.get_writer(
-            unfinished, fps=FRAMES_PER_STEP / DT, codec="libx264", quality=7, macro_block_size=16
-        ) as writer:
-            for frame in frames(record):
-                writer.append_data(frame)
+        size = first.shape[1], first.shape[0]
+        writer = imageio_ffmpeg.write_frames(str(unfinished), size, fps=per_second, quality=7)
+        writer.send(None)
+        try:
+            for picture in chain([first], pictures):
+                writer.send(np.ascontiguousarray(picture))
+        finally:
+            writer.close()
         os.replace(unfinished, path)
     finally:
         unfinished.unlink(missing_ok=True)

@@ -8,7 +8,7 @@ run=$folder/with-indicate-seed-$seed
 
 wordarm evolve --condition with-indicate --seed "$seed" --output "$run"
 wordarm evaluate "$run" --output "$folder"
-for instruction in "indicate blue" "touch red" "move green"; do
+for instruction in "indicate green" "touch red" "move blue"; do
     wordarm port "$run" "$instruction" --output "$folder/$(echo "$instruction" | tr ' ' '-').mp4"
 done
 

@@ -1,0 +1,1 @@
+"""What the robot and its table are: descriptions from installed packages, scene and appearance."""

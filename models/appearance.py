@@ -1,0 +1,125 @@
+"""What a robot looks like beyond its URDF: covers, a smoother head, eyes and a face.
+
+Ornaments are shapes without mass and without contact. Colours are RGB in [0, 1].
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+
+@dataclass(frozen=True)
+class Ornament:
+    """One shape without mass, fixed to a link.
+
+    Attributes:
+        link: The link it moves with.
+        shape: "sphere", "capsule", "cylinder" or "ellipsoid".
+        size: [3] in [m], as MuJoCo reads it for this shape.
+        position: [3] in [m], in the link's frame.
+        material: Name of a material of `scene.xml`.
+        to: [3] in [m], the other end of a capsule or cylinder.
+    """
+
+    link: str
+    shape: str
+    size: tuple[float, ...]
+    position: tuple[float, float, float]
+    material: str
+    to: tuple[float, float, float] | None = None
+
+
+@dataclass(frozen=True)
+class MeshSwap:
+    """A mesh of the same package that shows a link better than the URDF's own.
+
+    Attributes:
+        link: The link whose frame the mesh is given in.
+        replaces: The link whose own mesh is left out.
+        file: Path below the package's share folder.
+        scale: [3], metres per unit of the file; a negative number mirrors.
+        position: [3] in [m], in the frame of `link`.
+        material: Name of a material of `scene.xml`.
+    """
+
+    link: str
+    replaces: str
+    file: str
+    scale: tuple[float, float, float]
+    position: tuple[float, float, float]
+    material: str
+
+
+@dataclass(frozen=True)
+class Appearance:
+    """Materials by link, meshes to show instead, and ornaments.
+
+    Attributes:
+        materials: Link name -> material of `scene.xml`.
+        otherwise: Material of all other links.
+        swaps: Meshes shown instead of the URDF's.
+        ornaments: Shapes to add.
+    """
+
+    materials: Mapping[str, str] = field(default_factory=dict)
+    otherwise: str = "shell"
+    swaps: tuple[MeshSwap, ...] = ()
+    ornaments: tuple[Ornament, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Freeze the mapping."""
+        object.__setattr__(self, "materials", MappingProxyType(dict(self.materials)))
+
+
+def eye(
+    link: str, centre: tuple[float, float, float], gaze: tuple[float, float, float]
+) -> tuple[Ornament, ...]:
+    """Make an eye of nested spheres, each showing the cap that stands out of the one before.
+
+    Args:
+        link: The head.
+        centre: [3] in [m], centre of the eyeball.
+        gaze: [3], unit vector the eye looks along.
+    """
+    spheres = (("eye", 0.024, 0.0), ("iris", 0.0183, 0.0064), ("pupil", 0.0112, 0.0141))  # radius, offset [m]
+    return tuple(
+        Ornament(
+            link,
+            "sphere",
+            (radius,),
+            (centre[0] + offset * gaze[0], centre[1] + offset * gaze[1], centre[2] + offset * gaze[2]),
+            material,
+        )
+        for material, radius, offset in spheres
+    )
+
+
+ICUB_COVERS = (
+    "chest",
+    *(f"{side}_{link}" for side in "lr" for link in ("upper_arm", "elbow_1", "forearm")),
+)
+GAZE = (0.0, -0.34, 0.94)  # y is up and z ahead in the iCub's head: 20 degrees down, to the table
+
+ICUB_APPEARANCE = Appearance(
+    materials={**dict.fromkeys(ICUB_COVERS, "cover"), "head": "shell", "l_hand": "shell", "r_hand": "shell"},
+    otherwise="metal",
+    swaps=(
+        MeshSwap(
+            "head",
+            "head",
+            "iCub/meshes/dae/head.dae",
+            (0.001, 0.001, 0.001),
+            (0.0, -0.067153, -0.0295008),
+            "shell",
+        ),
+    ),
+    ornaments=(
+        # Without legs, the robot stands on a column.
+        Ornament("root_link", "cylinder", (0.045,), (0.0, 0.0, -0.02), "leg", to=(0.0, 0.0, -0.78)),
+        Ornament("root_link", "cylinder", (0.16,), (0.0, 0.0, -0.77), "leg", to=(0.0, 0.0, -0.788)),
+        *eye("head", (0.034, 0.1043, 0.0505), GAZE),
+        *eye("head", (-0.034, 0.1043, 0.0505), GAZE),
+    ),
+)

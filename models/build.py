@@ -1,0 +1,155 @@
+"""From a robot's URDF and our scene to one MuJoCo model, built in code with `MjSpec`."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from models.appearance import MeshSwap, Ornament
+from models.robots import Robot
+from models.urdf import find_urdf, read_urdf, share_folder
+
+ROBOT_PREFIX = "robot/"  # of every name that comes from the URDF, so that none meets one of the scene
+HAND_SITE = "robot/hand"  # the point that plays S2's end
+VISUAL_GROUP = 1
+SHELL_INERTIA = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # shown meshes need not be closed
+UNCOLOURED = [0.5, 0.5, 0.5, 1.0]  # the one colour that lets a material's own through
+
+SHAPES = {
+    "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
+    "ellipsoid": mujoco.mjtGeom.mjGEOM_ELLIPSOID,
+    "capsule": mujoco.mjtGeom.mjGEOM_CAPSULE,
+    "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
+}
+
+
+def build_spec(robot: Robot) -> mujoco.MjSpec:
+    """Put a robot at the table of `scene.xml`.
+
+    Joints that do not act are fixed at their angle in `robot.fixed`; the hand's reference point becomes
+    the site "robot/hand". The robot's meshes are only looked at: they take part in no contact.
+
+    Raises:
+        RobotNotInstalledError: If the robot's package is missing.
+    """
+    scene = mujoco.MjSpec.from_string(files("models").joinpath("scene.xml").read_text())
+    body = robot_spec(robot)
+    yaw = robot.base_yaw / 2
+    frame = scene.worldbody.add_frame(
+        pos=list(robot.base_position), quat=[np.cos(yaw), 0.0, 0.0, np.sin(yaw)]
+    )
+    scene.attach(body, frame=frame, prefix=ROBOT_PREFIX)
+    dress(scene, robot)
+    prune_frames(scene)
+    return scene
+
+
+def build_model(robot: Robot) -> mujoco.MjModel:
+    """Compile the robot and its table; about one second, most of it for the meshes."""
+    return build_spec(robot).compile()
+
+
+def robot_spec(robot: Robot) -> mujoco.MjSpec:
+    """Read a robot's URDF: acting joints only, and the hand's reference point as a site."""
+    spec = mujoco.MjSpec.from_string(read_urdf(robot))
+    spec.compiler.fusestatic = False  # a fused link would lose its name
+    spec.body(robot.hand_frame).add_site(name="hand", pos=list(robot.hand_offset), size=[0.005] * 3, group=5)
+    for link in robot.left_out:
+        spec.delete(spec.body(link))
+    acting = set(robot.joints)
+    for joint in list(spec.joints):
+        if joint.name not in acting:
+            fix_joint(spec, joint, robot.fixed.get(joint.name, 0.0))
+    return spec
+
+
+def fix_joint(spec: mujoco.MjSpec, joint: mujoco.MjsJoint, angle: float) -> None:
+    """Replace a hinge through its body's origin by the rotation it makes at `angle` [rad]."""
+    turn, quat = np.zeros(4), np.zeros(4)
+    mujoco.mju_axisAngle2Quat(turn, np.array(joint.axis), angle)
+    mujoco.mju_mulQuat(quat, np.array(joint.parent.quat), turn)
+    joint.parent.quat = quat
+    spec.delete(joint)
+
+
+def prune_frames(spec: mujoco.MjSpec) -> None:
+    """Delete the robot's links that are mere frames (of sensors): nothing on them, nothing below."""
+    while frames := [body for body in spec.bodies if is_bare(body)]:
+        for body in frames:
+            spec.delete(body)
+
+
+def is_bare(body: mujoco.MjsBody) -> bool:
+    """Say whether a link of the robot holds nothing at all."""
+    holds = (body.geoms, body.joints, body.sites, body.bodies, body.explicitinertial)
+    return body.name.startswith(ROBOT_PREFIX) and not any(holds)
+
+
+def dress(scene: mujoco.MjSpec, robot: Robot) -> None:
+    """Give the robot's links their materials, better meshes and ornaments; none of them touches anything."""
+    appearance = robot.appearance
+    left_out = {swap.replaces for swap in appearance.swaps}
+    for body in scene.bodies:
+        link = body.name.removeprefix(ROBOT_PREFIX)
+        if link == body.name:
+            continue
+        for geom in list(body.geoms):
+            if link in left_out:
+                scene.delete(geom)
+            else:
+                show(geom, appearance.materials.get(link, appearance.otherwise))
+    share = share_folder(find_urdf(robot))
+    for swap in appearance.swaps:
+        add_mesh_geom(scene, swap, share)
+    for ornament in appearance.ornaments:
+        add_ornament(scene, ornament)
+
+
+def show(geom: mujoco.MjsGeom, material: str) -> None:
+    """Make a shape that is only looked at."""
+    geom.material = material
+    geom.rgba = UNCOLOURED
+    geom.group = VISUAL_GROUP
+    geom.contype = geom.conaffinity = 0
+    geom.mass = 0.0
+
+
+def add_mesh_geom(scene: mujoco.MjSpec, swap: MeshSwap, share: Path) -> None:
+    """Show a mesh file at a link."""
+    name = f"{swap.link}_shown"
+    path = share / swap.file
+    if path.suffix == ".dae":
+        vertices, faces = read_mesh(path)
+        scene.add_mesh(
+            name=name, uservert=(vertices * swap.scale).ravel(), userface=faces.ravel(), inertia=SHELL_INERTIA
+        )
+    else:
+        scene.add_mesh(name=name, file=str(path), scale=list(swap.scale), inertia=SHELL_INERTIA)
+    body = scene.body(ROBOT_PREFIX + swap.link)
+    show(
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, pos=list(swap.position)), swap.material
+    )
+
+
+def add_ornament(scene: mujoco.MjSpec, ornament: Ornament) -> None:
+    """Add one shape without mass to a link."""
+    body = scene.body(ROBOT_PREFIX + ornament.link)
+    size = [*ornament.size, 0.0, 0.0][:3]
+    place = {"pos": list(ornament.position)}
+    if ornament.to is not None:
+        place = {"fromto": [*ornament.position, *ornament.to]}
+    geom = body.add_geom(type=SHAPES[ornament.shape], size=size, **place)
+    show(geom, ornament.material)
+
+
+def read_mesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Read a mesh that MuJoCo cannot: vertices [V, 3] in the file's unit, faces [F, 3]."""
+    import coal
+
+    mesh = coal.MeshLoader().load(str(path), np.ones(3))
+    corners = [mesh.tri_indices(i) for i in range(mesh.num_tris)]
+    faces = np.array([[triangle[0], triangle[1], triangle[2]] for triangle in corners], dtype=np.int32)
+    return np.array(mesh.vertices()), faces

@@ -1,0 +1,161 @@
+"""The robots that can take the place of the 2D arm, as data: one frozen record for each.
+
+A robot comes from an installed package; nothing of it is kept here but names and numbers.
+A further robot is a further record. Units: metres and radians, unless a name says otherwise.
+
+World frame: that of the 2D world, x to the right and y straight ahead, with the arm's first
+joint J1 in the origin and z = 0 on the table top.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import pi
+from types import MappingProxyType
+
+from models.appearance import ICUB_APPEARANCE, Appearance
+
+
+class UnknownRobotError(ValueError):
+    """A robot was asked for that no record describes."""
+
+
+@dataclass(frozen=True)
+class PlaneMap:
+    """How the 2D world is laid on the table: X = scale x, Y = scale y, at one height.
+
+    Attributes:
+        scale: [m/cm], metres on the table per centimetre in the 2D world.
+        hand_height: [m], height of the hand's reference point above the table top.
+        heading_range: [rad], the hand points along the radial direction from J1 but turns no further
+            than this: beyond, the arm would have to fold behind the robot's side.
+    """
+
+    scale: float
+    hand_height: float
+    heading_range: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Posture:
+    """What the arm prefers among the infinitely many postures that reach one target.
+
+    Attributes:
+        rest: [J] in [rad], the posture that is approached.
+        weights: [J], cost of the squared distance to `rest` per joint [1/rad^2].
+        heading_weight: cost of the squared error of the hand's heading [1/rad^2].
+        level_weight: cost of the squared tilt of the palm against the table.
+        inertia: cost of the squared change per step [1/rad^2]; below 0.3 the arm oscillates.
+    """
+
+    rest: tuple[float, ...]
+    weights: tuple[float, ...]
+    heading_weight: float
+    level_weight: float
+    inertia: float
+
+
+@dataclass(frozen=True)
+class Robot:
+    """One humanoid: where its description comes from, which joints act, where its hand is.
+
+    Attributes:
+        name: What the user types.
+        title: What the user reads.
+        package: Name of the installed distribution that brings the URDF and the meshes.
+        urdf: How the URDF's path ends within that distribution.
+        joints: The J joints that act, from the trunk to the hand.
+        hand_frame: Link of the URDF with x along the fingers, y to the little finger, z out of the palm.
+        hand_offset: [3] in [m], in `hand_frame`: the point that plays S2's end.
+        base_position: [3] in [m], where the robot's root stands in the world.
+        base_yaw: [rad], turn of the root about the vertical.
+        plane: How the 2D world is laid on the table.
+        posture: What the arm prefers.
+        left_out: Links that are not built in MuJoCo, with all that hangs on them.
+        fixed: [rad], the angle at which a joint that does not act is held; 0 if not named.
+        appearance: Colours and ornaments.
+    """
+
+    name: str
+    title: str
+    package: str
+    urdf: str
+    joints: tuple[str, ...]
+    hand_frame: str
+    hand_offset: tuple[float, float, float]
+    base_position: tuple[float, float, float]
+    base_yaw: float
+    plane: PlaneMap
+    posture: Posture
+    left_out: tuple[str, ...] = ()
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    appearance: Appearance = field(default_factory=Appearance)
+
+    def __post_init__(self) -> None:
+        """Check that the numbers fit the joints, and freeze the mapping."""
+        for name in ("rest", "weights"):
+            if len(getattr(self.posture, name)) != len(self.joints):
+                raise ValueError(
+                    f"robot '{self.name}' has {len(self.joints)} joints, "
+                    f"but {len(getattr(self.posture, name))} numbers in posture.{name}; give one per joint"
+                )
+        object.__setattr__(self, "fixed", MappingProxyType(dict(self.fixed)))
+
+
+ICUB = Robot(
+    name="icub",
+    title="iCub (icub-models, iCubGenova04)",
+    package="icub-models",
+    urdf="iCubGenova04/model.urdf",
+    joints=(
+        "torso_pitch",
+        "torso_roll",
+        "torso_yaw",
+        "r_shoulder_pitch",
+        "r_shoulder_roll",
+        "r_shoulder_yaw",
+        "r_elbow",
+        "r_wrist_prosup",
+        "r_wrist_pitch",
+        "r_wrist_yaw",
+    ),
+    hand_frame="r_hand_dh_frame",
+    # The palm's edge on the little finger's side lies at y = 0.0325: it stands out 16 mm to the right of
+    # the point, so that it meets a cylinder of 25 mm when S2 meets the disc of 5 cm, 9 mm on the table.
+    hand_offset=(0.07, 0.0165, -0.010),
+    base_position=(-0.0493, -0.2851, 0.1482),
+    base_yaw=-pi / 2,  # the iCub of the URDF faces -x
+    plane=PlaneMap(scale=0.0018, hand_height=0.05, heading_range=(-pi / 12, 17 * pi / 18)),
+    posture=Posture(
+        rest=(0.044, 0.065, -0.744, -0.468, 1.23, 0.093, 0.603, 0.282, -0.555, 0.048),
+        weights=(0.6188, 1.7055, 0.1802, 0.0489, 0.1591, 0.0516, 0.0343, 0.0528, 0.1382, 0.0317),
+        heading_weight=0.1,
+        level_weight=0.1,
+        inertia=0.3,
+    ),
+    # Nothing of the legs is seen at the table, and they are half of the triangles to be drawn.
+    left_out=("l_hip_1", "r_hip_1"),
+    fixed={
+        "neck_pitch": -0.15,
+        "neck_yaw": -0.35,
+        "l_shoulder_pitch": -0.2,
+        "l_shoulder_roll": 0.35,
+        "l_elbow": 0.9,
+    },
+    appearance=ICUB_APPEARANCE,
+)
+
+ROBOTS: Mapping[str, Robot] = MappingProxyType({robot.name: robot for robot in (ICUB,)})
+
+
+def get_robot(name: str) -> Robot:
+    """Give the record of a robot by its name.
+
+    Raises:
+        UnknownRobotError: If no robot has this name; the message lists those that exist.
+    """
+    try:
+        return ROBOTS[name]
+    except KeyError:
+        raise UnknownRobotError(f"unknown robot '{name}'; there are: {', '.join(ROBOTS)}") from None

@@ -1,0 +1,1 @@
+"""The champion on the humanoid: planar map, inverse kinematics, control, video."""

@@ -1,0 +1,79 @@
+"""Which OpenGL back end draws without a screen: EGL or OSMesa.
+
+MuJoCo reads MUJOCO_GL when it is imported, and a back end that does not work may end the whole process:
+so each is tried in a child process, before `import mujoco`. EGL comes first, since Mesa has given up
+OSMesa from 25.1 on.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from functools import cache
+from typing import Final
+
+VARIABLE: Final = "MUJOCO_GL"
+BACK_ENDS: Final = ("egl", "osmesa")
+PROBE_TIMEOUT_S: Final = 60.0
+PROBE: Final = """
+import mujoco
+model = mujoco.MjModel.from_xml_string('<mujoco><worldbody><light pos="0 0 1"/></worldbody></mujoco>')
+with mujoco.Renderer(model, 8, 8) as renderer:
+    renderer.update_scene(mujoco.MjData(model))
+    assert renderer.render().shape == (8, 8, 3)
+"""
+
+
+class NoRenderingError(OSError):
+    """Nothing on this machine can draw without a screen."""
+
+
+def choose_back_end() -> str:
+    """Choose a back end that works and set MUJOCO_GL to it; a value that is set already is kept.
+
+    Call it before anything imports mujoco.
+
+    Raises:
+        NoRenderingError: If none works, the chosen one does not, or mujoco was imported too early.
+    """
+    chosen = os.environ.get(VARIABLE)
+    if chosen:
+        if not works(chosen):
+            raise NoRenderingError(
+                f"{VARIABLE}={chosen} cannot draw without a screen here; unset {VARIABLE} to let "
+                f"{' or '.join(BACK_ENDS)} be chosen"
+            )
+        return chosen
+    if "mujoco" in sys.modules:
+        raise NoRenderingError(
+            f"mujoco was imported before a back end was chosen; set {VARIABLE}=egl before starting Python"
+        )
+    for name in BACK_ENDS:
+        if works(name):
+            os.environ[VARIABLE] = name
+            return name
+    raise NoRenderingError(
+        "neither EGL nor OSMesa can draw here without a screen; "
+        "run: apt-get install libegl1 libgl1 libgl1-mesa-dri"
+    )
+
+
+@cache
+def works(back_end: str) -> bool:
+    """Whether a back end draws a picture, tried in a process of its own."""
+    environment = {**os.environ, VARIABLE: back_end}
+    if back_end == "osmesa":
+        environment["PYOPENGL_PLATFORM"] = "osmesa"
+    try:
+        probe = subprocess.run(  # noqa: S603 - our own interpreter and text
+            [sys.executable, "-c", PROBE],
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            timeout=PROBE_TIMEOUT_S,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return False
+    return probe.returncode == 0

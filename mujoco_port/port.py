@@ -1,0 +1,62 @@
+"""Putting a trial on the robot: the public face of this package.
+
+from mujoco_port.port import port_trial
+port_trial(record, Path("touch-red.mp4"))
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from arm2d import TrialRecord
+from models.robots import get_robot
+from mujoco_port.gl import choose_back_end
+
+
+def port_trial(record: TrialRecord, output: Path | str, *, robot: str = "icub") -> Path:
+    """Play a recorded trial kinematically on a robot and write it as an MP4.
+
+    The hand follows the end of S2 by inverse kinematics, the objects follow the discs of the 2D world.
+
+    Args:
+        record: The trial.
+        output: The video; its folder has to be there.
+        robot: Name of a record in `models.robots`.
+
+    Returns:
+        The path of the video.
+
+    Raises:
+        UnknownRobotError: If no robot has this name.
+        NoRenderingError: If nothing on this machine can draw without a screen.
+        OutOfReachError: If the robot cannot follow.
+        OSError: If the file cannot be written.
+    """
+    path, chosen = _writable(Path(output), ".mp4"), get_robot(robot)
+    choose_back_end()
+    from mujoco_port.video import write_video
+
+    write_video(record, chosen, path)
+    return path
+
+
+def port_picture(record: TrialRecord, step: int, output: Path | str, *, robot: str = "icub") -> Path:
+    """Write one moment of a trial on a robot as a PNG; arguments and errors as `port_trial`."""
+    path, chosen = _writable(Path(output), ".png"), get_robot(robot)
+    choose_back_end()
+    import imageio.v3 as imageio
+
+    from mujoco_port.video import frame_at
+
+    imageio.imwrite(path, frame_at(record, chosen, step))
+    return path
+
+
+def _writable(path: Path, suffix: str) -> Path:
+    """The path, if a file of this kind can be written there: told before a minute of drawing."""
+    if path.suffix.lower() != suffix:
+        raise ValueError(f"{path} does not end in {suffix}; choose such a name")
+    if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
+        raise OSError(f"{path} cannot be written: its folder is missing or read-only; choose another")
+    return path

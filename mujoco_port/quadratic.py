@@ -1,0 +1,212 @@
+"""The compiled part of the inverse kinematics: two kinds of step, both a small quadratic programme.
+
+    minimise    1/2 d' H d + g' d
+    subject to  J d = e,   lower <= d <= upper
+
+An active set on the bounds: the free joints solve the problem with equalities only, by the Schur complement
+of H; the joint that leaves its range furthest is then held at its bound, and a held joint that would rather
+come back is released. With ten joints and three rows that takes one or two microseconds.
+
+All compiled functions stand in this one file: the cache notices changes in a function's own file only.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from arm2d.compiling import compiled
+
+MAX_CHANGES = 40  # of the active set; each holds or releases one joint, a handful is usual
+RELEASE_TOLERANCE = 1e-10  # on a multiplier, so that rounding does not hold and release in turn
+# Added to the diagonal of J H^-1 J', relative to its trace. It keeps a stretched or blocked arm solvable,
+# at the price of a step that falls a little short; the next step makes up for it.
+RELATIVE_DAMPING = 1e-12
+MAX_STEP = 0.3  # [rad], of one joint in one step: beyond, the linear model says little
+
+
+@compiled
+def relaxed(angles, jacobian, hand, error, heading, rest, weights, wishes, lower, upper):
+    """Give the angles [J] after a proximal Gauss-Newton step on position, rest, heading and level together.
+
+    Args:
+        angles: q, [J] in [rad].
+        jacobian: [6, J], of the hand, linear over angular, in world axes.
+        hand: [3, 3], rotation of the hand; x along the fingers, z out of the palm.
+        error: [3] in [m], from the hand to the target.
+        heading: [rad], wanted direction of the fingers in the plane.
+        rest: [J] in [rad].
+        weights: [J], cost of the squared distance to `rest`.
+        wishes: [3], cost of squared heading error, squared tilt and squared step.
+        lower: [J] in [rad].
+        upper: [J] in [rad].
+    """
+    n = angles.size
+    rows = np.empty((3, n))  # derivatives of heading and of the two components of the tilt
+    x, z = hand[:, 0], hand[:, 2]
+    flat = max(x[0] * x[0] + x[1] * x[1], 1e-6)
+    for j in range(n):
+        wx, wy, wz = jacobian[3, j], jacobian[4, j], jacobian[5, j]
+        rows[0, j] = wz - x[2] * (wx * x[0] + wy * x[1]) / flat  # d atan2(x_y, x_x), as dx = w cross x
+        rows[1, j] = wy * z[2] - wz * z[1]  # dz = w cross z; a level palm has z = (0, 0, -1)
+        rows[2, j] = wz * z[0] - wx * z[2]
+    off = np.arctan2(x[1], x[0]) - heading
+    off -= 2 * np.pi * np.round(off / (2 * np.pi))
+    residuals = (wishes[0] * off, wishes[1] * z[0], wishes[1] * z[1])
+    costs = (wishes[0], wishes[1], wishes[1])
+
+    hessian = np.zeros((n, n))
+    gradient = np.empty(n)
+    for i in range(n):
+        gradient[i] = weights[i] * (angles[i] - rest[i])
+        for r in range(3):
+            gradient[i] += rows[r, i] * residuals[r]
+            for j in range(i + 1):
+                hessian[i, j] += costs[r] * rows[r, i] * rows[r, j]
+                hessian[j, i] = hessian[i, j]
+        hessian[i, i] += weights[i] + wishes[2]
+    return bounded(hessian, gradient, jacobian, error, angles, lower, upper)
+
+
+@compiled
+def bounded(hessian, gradient, jacobian, error, angles, lower, upper):
+    """Give the angles [J] after the step that solves the programme within the joint limits and `MAX_STEP`."""
+    down = np.maximum(lower - angles, -MAX_STEP)
+    up = np.minimum(upper - angles, MAX_STEP)
+    step = solve_bounded(hessian, gradient, jacobian, error, down, up)
+    return np.minimum(np.maximum(angles + step, lower), upper)  # rounding may exceed a limit by an ulp
+
+
+@compiled
+def solve_bounded(hessian, gradient, jacobian, error, lower, upper):
+    """Solve the programme above.
+
+    Args:
+        hessian: H, [n, n], symmetric and positive definite.
+        gradient: g, [n].
+        jacobian: J, [at least m, n]; rows beyond the m of `error` play no part.
+        error: e, [m].
+        lower: [n], at most 0.
+        upper: [n], at least 0.
+
+    Returns:
+        d, [n], within the bounds; J d = e as nearly as they allow for.
+    """
+    n = gradient.size
+    step = np.zeros(n)
+    held = np.zeros(n, dtype=np.bool_)
+    for _ in range(MAX_CHANGES):
+        reaction = solve_free(hessian, gradient, jacobian, error, held, step)
+        leaving = furthest_outside(step, lower, upper, held)
+        if leaving >= 0:
+            held[leaving] = True
+            step[leaving] = lower[leaving] if step[leaving] < lower[leaving] else upper[leaving]
+            continue
+        returning = most_eager(hessian @ step + gradient - reaction, step, upper, held)
+        if returning < 0:
+            break
+        held[returning] = False
+    return np.minimum(np.maximum(step, lower), upper)
+
+
+@compiled
+def solve_free(hessian, gradient, jacobian, error, held, step):
+    """Set the free entries of `step` to the solution with equalities only, the held ones staying.
+
+    Returns:
+        J' lambda, [n], the pull of the equalities on every joint.
+    """
+    n, m = gradient.size, error.size
+    free = np.flatnonzero(~held)
+    k = free.size
+    # Columns: H_ff^-1 J_f' for the Schur complement, and the minimum without the equalities.
+    columns = np.empty((k, m + 1))
+    factor = np.empty((k, k))
+    for a in range(k):
+        for b in range(k):
+            factor[a, b] = hessian[free[a], free[b]]
+        pull = gradient[free[a]]
+        for j in range(n):
+            if held[j]:
+                pull += hessian[free[a], j] * step[j]
+        columns[a, m] = -pull
+        for r in range(m):
+            columns[a, r] = jacobian[r, free[a]]
+    solve_positive(factor, columns)
+
+    schur = np.zeros((m, m))
+    missing = np.empty((m, 1))
+    for r in range(m):
+        gap = error[r]
+        for j in range(n):
+            if held[j]:
+                gap -= jacobian[r, j] * step[j]
+        for a in range(k):
+            gap -= jacobian[r, free[a]] * columns[a, m]
+            for c in range(m):
+                schur[r, c] += jacobian[r, free[a]] * columns[a, c]
+        missing[r, 0] = gap
+    damping = RELATIVE_DAMPING * np.trace(schur) + 1e-300
+    for r in range(m):
+        schur[r, r] += damping
+    solve_positive(schur, missing)
+
+    for a in range(k):
+        step[free[a]] = columns[a, m]
+        for r in range(m):
+            step[free[a]] += columns[a, r] * missing[r, 0]
+    reaction = np.zeros(n)
+    for j in range(n):
+        for r in range(m):
+            reaction[j] += jacobian[r, j] * missing[r, 0]
+    return reaction
+
+
+@compiled
+def solve_positive(matrix, columns):
+    """Solve matrix @ X = columns in place for a symmetric positive definite matrix [k, k], by Cholesky."""
+    k, m = columns.shape
+    for i in range(k):
+        for j in range(i + 1):
+            total = matrix[i, j]
+            for p in range(j):
+                total -= matrix[i, p] * matrix[j, p]
+            matrix[i, j] = np.sqrt(max(total, 1e-300)) if i == j else total / matrix[j, j]
+    for c in range(m):
+        for i in range(k):
+            for p in range(i):
+                columns[i, c] -= matrix[i, p] * columns[p, c]
+            columns[i, c] /= matrix[i, i]
+        for i in range(k - 1, -1, -1):
+            for p in range(i + 1, k):
+                columns[i, c] -= matrix[p, i] * columns[p, c]
+            columns[i, c] /= matrix[i, i]
+
+
+@compiled
+def furthest_outside(step, lower, upper, held):
+    """Give the free joint that leaves its bounds furthest, or -1."""
+    worst, distance = -1, 0.0
+    for i in range(step.size):
+        outside = max(lower[i] - step[i], step[i] - upper[i])
+        if not held[i] and outside > distance:
+            worst, distance = i, outside
+    return worst
+
+
+@compiled
+def most_eager(slope, step, upper, held):
+    """Give the held joint whose cost falls fastest on the way back inside, or -1.
+
+    Args:
+        slope: H d + g - J' lambda, [n]: zero for a free joint, the bound's force for a held one.
+        step: d, [n].
+        upper: [n].
+        held: [n].
+    """
+    best, gain = -1, RELEASE_TOLERANCE
+    for i in range(step.size):
+        if held[i]:
+            inward = slope[i] if step[i] >= upper[i] else -slope[i]
+            if inward > gain:
+                best, gain = i, inward
+    return best

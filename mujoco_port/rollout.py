@@ -1,0 +1,66 @@
+"""A recorded 2D trial, lived by the humanoid: joint angles and objects over time, kinematically."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import TrialRecord
+from arm2d.constants import DT
+from models.robots import Robot
+from mujoco_port.kinematics import ArmKinematics
+from mujoco_port.workspace import hand_headings, hand_targets, on_table
+
+# Postures between two control steps: the arm of the 2D world is interpolated, and solved for anew.
+FRAMES_PER_STEP: Final = 2
+
+
+@dataclass(frozen=True)
+class Rollout:
+    """F moments of a trial on the robot; axes J joints, 3 objects.
+
+    Attributes:
+        steps: [F], moment in control steps from the start; whole numbers are states of the record.
+        angles: [F, J] in [rad].
+        targets: [F, 3] in [m], where the hand's reference point has to be.
+        objects: [F, 3, 2] in [m], centres on the table: blue, green, red.
+    """
+
+    steps: NDArray[np.float64]
+    angles: NDArray[np.float64]
+    targets: NDArray[np.float64]
+    objects: NDArray[np.float64]
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """[F] in [s]."""
+        return self.steps * DT
+
+
+def roll_out(record: TrialRecord, robot: Robot, frames_per_step: int = FRAMES_PER_STEP) -> Rollout:
+    """Let a robot follow a recorded trial.
+
+    Args:
+        record: K steps.
+        robot: Its record.
+        frames_per_step: Moments for each control step; 1 gives the record's own K + 1 states.
+
+    Raises:
+        OutOfReachError: If the robot cannot reach a place.
+    """
+    steps = np.arange(record.steps * frames_per_step + 1) / frames_per_step
+    alpha, beta = _at(record.alpha, steps), _at(record.beta, steps)
+    targets = hand_targets(robot.plane, alpha, beta)
+    angles = ArmKinematics(robot).follow(targets, hand_headings(robot.plane, alpha, beta))
+    return Rollout(steps, angles, targets, on_table(robot.plane, _at(record.discs, steps)))
+
+
+def _at(states: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:
+    """States [K + 1, ...] at fractional steps [F], interpolated."""
+    before = np.floor(steps).astype(int)
+    after = np.minimum(before + 1, len(states) - 1)
+    part = (steps - before).reshape(-1, *(1,) * (states.ndim - 1))
+    return (1.0 - part) * states[before] + part * states[after]

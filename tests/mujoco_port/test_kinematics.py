@@ -1,0 +1,90 @@
+"""Inverse kinematics: how exactly the hand follows, and that Pinocchio and MuJoCo mean the same robot."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from models.build import HAND_SITE, ROBOT_PREFIX, build_model
+from mujoco_port.kinematics import OutOfReachError
+from mujoco_port.rollout import roll_out
+from mujoco_port.workspace import hand_headings, hand_targets
+
+LARGEST_ERROR_M = 1e-6
+LARGEST_JUMP_RAD = 0.15
+TURN_DEG = 2.9
+
+
+def assert_followed(kinematics, targets, angles):
+    """Position error, joint limits and jumps of a path are within what is promised."""
+    reached = np.array([kinematics.forward(each).position for each in angles])
+    assert np.linalg.norm(reached - targets, axis=1).max() <= LARGEST_ERROR_M
+    assert (angles >= kinematics.lower).all()
+    assert (angles <= kinematics.upper).all()
+    assert np.abs(np.diff(angles, axis=0)).max() <= LARGEST_JUMP_RAD
+
+
+def test_pinocchio_and_mujoco_agree_on_ten_thousand_postures(robot, kinematics):
+    model = build_model(robot)
+    data = mujoco.MjData(model)
+    joints = [model.joint(ROBOT_PREFIX + name).qposadr[0] for name in robot.joints]
+    postures = np.random.default_rng(0).uniform(kinematics.lower, kinematics.upper, (10_000, len(joints)))
+    worst = 0.0
+    for angles in postures:
+        data.qpos[joints] = angles
+        mujoco.mj_kinematics(model, data)
+        hand = data.site(HAND_SITE)
+        pose = kinematics.forward(angles)
+        worst = max(worst, np.abs(hand.xpos - pose.position).max())
+        assert np.abs(hand.xmat.reshape(3, 3) - pose.rotation).max() < 1e-12
+    assert worst < 1e-12
+
+
+def test_joint_limits_are_those_of_the_mujoco_model(robot, kinematics):
+    model = build_model(robot)
+    ranges = np.array([model.joint(ROBOT_PREFIX + name).range for name in robot.joints])
+    np.testing.assert_allclose(ranges[:, 0], kinematics.lower, atol=1e-9)
+    np.testing.assert_allclose(ranges[:, 1], kinematics.upper, atol=1e-9)
+
+
+def test_champions_trials_of_all_nine_instructions_are_followed_to_a_micrometre(
+    robot, kinematics, champion_records
+):
+    assert len({record.instruction for record in champion_records}) == 9
+    for record in champion_records:
+        rollout = roll_out(record, robot, frames_per_step=1)
+        assert len(rollout.angles) == record.steps + 1
+        assert_followed(kinematics, rollout.targets, rollout.angles)
+
+
+def test_whole_workspace_is_reached_to_a_micrometre(robot, kinematics):
+    """A grid of all alpha and beta no wider than a turn, walked back and forth."""
+    alpha, beta = np.linspace(-30, 210, 84), np.linspace(0, 90, 33)
+    assert max(np.diff(alpha).max(), np.diff(beta).max()) <= TURN_DEG
+    columns = [beta[:: -1 if k % 2 else 1] for k in range(len(alpha))]
+    walk = np.repeat(alpha, len(beta)), np.concatenate(columns)
+    targets = hand_targets(robot.plane, *walk)
+    angles = kinematics.follow(targets, hand_headings(robot.plane, *walk))
+    assert_followed(kinematics, targets, angles)
+
+
+def test_hand_stays_level_with_the_table_and_points_outwards(robot, kinematics, champion_records):
+    for record in champion_records[::4]:
+        rollout = roll_out(record, robot, frames_per_step=1)
+        wanted = hand_headings(robot.plane, record.alpha, record.beta)
+        for angles, heading in zip(rollout.angles, wanted, strict=True):
+            rotation = kinematics.forward(angles).rotation
+            assert abs(rotation[2, 0]) < np.sin(np.radians(40))  # soft: a wish, not a promise
+            off = np.arctan2(rotation[1, 0], rotation[0, 0]) - heading
+            assert abs((off + np.pi) % (2 * np.pi) - np.pi) < np.radians(60)
+
+
+def test_same_targets_give_the_same_postures(robot, champion_records):
+    first, second = (roll_out(champion_records[0], robot) for _ in range(2))
+    np.testing.assert_array_equal(first.angles, second.angles)
+
+
+def test_target_out_of_reach_says_by_how_much(kinematics):
+    with pytest.raises(
+        OutOfReachError, match=r"target \(0.000, 3.000, 0.050\) m lies 2\.\d+ m beyond the reach"
+    ):
+        kinematics.settle(np.array([0.0, 3.0, 0.05]), 0.0)

@@ -1,0 +1,118 @@
+"""Trials as videos and pictures of the robot; and what bad input gets."""
+
+import os
+import subprocess
+import sys
+
+import imageio.v3 as imageio
+import numpy as np
+import pytest
+
+from arm2d.drawing import OBJECT_COLOURS
+from models.robots import UnknownRobotError
+from mujoco_port.port import port_picture, port_trial
+from mujoco_port.rollout import FRAMES_PER_STEP, roll_out
+from mujoco_port.workspace import on_table, tip_in_plane
+
+
+@pytest.fixture(scope="module")
+def shortest(champion_records):
+    return min((each for each in champion_records if each.success), key=lambda each: each.steps)
+
+
+def test_hand_target_is_the_end_of_s2_laid_on_the_table(robot, shortest):
+    rollout = roll_out(shortest, robot, frames_per_step=1)
+    tip = tip_in_plane(shortest.alpha, shortest.beta)
+    np.testing.assert_allclose(rollout.targets[:, :2], 0.0018 * tip, atol=1e-12)
+    np.testing.assert_allclose(rollout.objects, 0.0018 * shortest.discs, atol=1e-12)
+
+
+def test_whole_steps_of_a_rollout_are_the_states_of_the_record(robot, shortest):
+    rollout = roll_out(shortest, robot)
+    whole = rollout.steps % 1 == 0
+    assert whole.sum() == shortest.steps + 1
+    np.testing.assert_array_equal(rollout.objects[whole], on_table(robot.plane, shortest.discs))
+
+
+def test_touched_disc_meets_the_palms_edge(robot, champion_records):
+    """25 mm of cylinder and 16 mm of palm reach as far as a disc of 5 cm does in the 2D world."""
+    disc_m = robot.plane.scale * champion_records[0].readings.object_radius
+    palm_edge_m = 0.0325 - robot.hand_offset[1]
+    assert disc_m + palm_edge_m == pytest.approx(0.025, abs=1e-3)
+
+
+@pytest.mark.slow
+def test_video_shows_robot_and_plane_in_real_time(shortest, tmp_path):
+    path = port_trial(shortest, tmp_path / "trial.mp4")
+    meta = imageio.immeta(path, plugin="FFMPEG")
+    assert meta["size"] == (1280, 720)
+    assert meta["fps"] == 10 * FRAMES_PER_STEP
+    assert meta["duration"] == pytest.approx(shortest.steps * 0.1 + 1.0, abs=0.2)
+    assert [each.name for each in tmp_path.iterdir()] == ["trial.mp4"]
+
+
+def test_picture_shows_all_objects_and_nothing_is_black(shortest, tmp_path):
+    picture = imageio.imread(port_picture(shortest, 0, tmp_path / "start.png"))
+    robot_view = picture[:, :800].astype(float) / 255
+    for colour in OBJECT_COLOURS.values():
+        rgb = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)]) / 255
+        direction = (
+            robot_view @ rgb / np.maximum(np.linalg.norm(robot_view, axis=-1) * np.linalg.norm(rgb), 1e-9)
+        )
+        saturated = robot_view.max(axis=-1) - robot_view.min(axis=-1) > 0.25
+        assert ((direction > 0.97) & saturated).sum() > 300, colour
+    assert (robot_view.max(axis=-1) < 0.04).mean() < 0.005
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "message"),
+    [
+        (
+            lambda r, d: port_trial(r, d / "x.mp4", robot="nao"),
+            UnknownRobotError,
+            "unknown robot 'nao'; there are: icub",
+        ),
+        (lambda r, d: port_trial(r, d / "x.avi"), ValueError, "does not end in .mp4"),
+        (lambda r, d: port_trial(r, d / "no" / "x.mp4"), OSError, "its folder is missing or read-only"),
+        (lambda r, d: port_picture(r, 9999, d / "x.png"), ValueError, "step 9999 does not exist"),
+    ],
+)
+def test_bad_input_gets_one_sentence_and_leaves_nothing(call, error, message, shortest, tmp_path):
+    with pytest.raises(error, match=message):
+        call(shortest, tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+def run_gl(code, **environment):
+    """Run Python with these variables; its (exit code, last line of output)."""
+    base = {name: value for name, value in os.environ.items() if name != "MUJOCO_GL"}
+    done = subprocess.run(
+        [sys.executable, "-c", code], env={**base, **environment}, capture_output=True, text=True, check=False
+    )
+    return done.returncode, (done.stdout + done.stderr).strip().splitlines()[-1]
+
+
+CHOOSE = "from mujoco_port.gl import choose_back_end; print(choose_back_end())"
+
+
+def test_a_back_end_that_works_is_chosen_by_itself():
+    assert run_gl(CHOOSE) in [(0, "egl"), (0, "osmesa")]
+
+
+def test_a_chosen_back_end_that_cannot_draw_is_named():
+    code, line = run_gl(CHOOSE, MUJOCO_GL="glfw", DISPLAY="")
+    assert code == 1
+    assert "MUJOCO_GL=glfw cannot draw without a screen here; unset MUJOCO_GL" in line
+
+
+def test_no_back_end_at_all_says_what_to_install():
+    broken = "import mujoco_port.gl as gl; gl.works = lambda name: False; gl.choose_back_end()"
+    code, line = run_gl(broken)
+    assert code == 1
+    assert "neither EGL nor OSMesa can draw here without a screen; run: apt-get install libegl1" in line
+
+
+def test_mujoco_imported_too_early_is_named():
+    code, line = run_gl(f"import mujoco; {CHOOSE}")
+    assert code == 1
+    assert "mujoco was imported before a back end was chosen; set MUJOCO_GL=egl" in line
