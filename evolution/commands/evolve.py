@@ -18,7 +18,7 @@ INTERRUPTED = 130
 
 @dataclass(frozen=True)
 class UncheckedReadings(Readings):
-    """How what the paper leaves open is understood (docs/readings.md)."""
+    """How what the paper leaves open is understood (docs/ledger.md)."""
 
     # The option parser would wrap the message of an impossible value; `checked` raises it plainly.
     def __post_init__(self) -> None:

@@ -1,0 +1,34 @@
+"""docs/ledger.md against arm2d.Readings: it cannot drift."""
+
+import re
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from arm2d import Readings
+from arm2d.readings import choices
+
+PAGE = (Path(__file__).parents[1] / "docs" / "ledger.md").read_text(encoding="utf-8")
+ROWS = {
+    name: values
+    for name, _, values, _ in re.findall(r"^\| `(\w+)` \| (.*?) \| (.*?) \| (.*?) \|$", PAGE, re.MULTILINE)
+}
+
+
+def test_every_reading_has_one_row_in_the_order_of_the_record():
+    assert list(ROWS) == [each.name for each in fields(Readings)]
+
+
+@pytest.mark.parametrize("name", list(ROWS))
+def test_bold_value_is_the_default(name):
+    (bold,) = re.findall(r"\*\*(.*?)\*\*", ROWS[name])
+    default = getattr(Readings(), name)
+    shown = ", ".join(map(str, default)) if isinstance(default, tuple) else str(default)
+    assert bold == shown
+
+
+@pytest.mark.parametrize("name", list(choices()))
+def test_every_word_that_can_be_chosen_is_listed(name):
+    for word in choices()[name]:
+        assert word in ROWS[name]
