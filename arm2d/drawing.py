@@ -12,8 +12,7 @@ from typing import Final, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Wedge
+from matplotlib.patches import Arc, Circle, Wedge
 
 from arm2d import constants as c
 from arm2d.instructions import ObjectWord
@@ -31,48 +30,56 @@ CAMERA: Final = "#F0E442"
 INK: Final = "#1A1A1A"
 CONTACT: Final = "#111111"
 
-# The half circle of everything the arm and its objects can reach [cm].
-LIMITS: Final = ((-178.0, 178.0), (-92.0, 178.0))
-CAMERA_RANGE: Final = 168.0
+# Everything the arm and its objects can reach, with room for the instruction above [cm].
+LIMITS: Final = ((-180.0, 180.0), (-104.0, 200.0))
+CAMERA_RANGE: Final = 172.0
+# The world gives S2 no width and S1 no obstacle; these only make them visible [cm].
+S1_WIDTH: Final = 7.0
+S2_WIDTH: Final = 3.4
 
 
 class Scene:
     """A trial in matplotlib axes, to be moved from step to step without being drawn anew.
 
+    All widths and letters are in proportion to the axes' size when the scene is made, so that a small
+    panel shows the same picture as a large one.
+
     Args:
         axes: Where to draw; cleared of ticks and scaled to the world.
         record: The trial.
-        caption: Whether to write the instruction above the world; the time stands below it anyway.
+        caption: Whether to write the instruction above the world and, in the end, how it went.
+        note: A line under the instruction, such as the agent and the trial it is about.
     """
 
-    def __init__(self, axes: Axes, record: TrialRecord, *, caption: bool = True) -> None:
-        self._record = record
-        _prepare(axes)
-        _draw_sectors(axes, record)
+    def __init__(self, axes: Axes, record: TrialRecord, *, caption: bool = True, note: str = "") -> None:
+        self._record, self._caption = record, caption
+        axes.set(xlim=LIMITS[0], ylim=LIMITS[1], aspect="equal", facecolor=FLOOR, xticks=[], yticks=[])
+        axes.spines[:].set_visible(False)
+        points = _points_per_cm(axes)
+        _draw_ground(axes, record, points)
+        edge = {"ec": FLOOR, "lw": 0.5 * points, "zorder": 1}
         self._camera = [
-            _add(axes, Wedge((0, 0), CAMERA_RANGE, 0, 1, color=CAMERA, alpha=alpha, lw=0, zorder=1))
-            for alpha in (0.16, 0.3, 0.16)
+            _add(axes, Wedge((0, 0), CAMERA_RANGE, 0, 1, fc=(CAMERA, alpha), **edge))
+            for alpha in (0.28, 0.55, 0.28)
         ]
-        self._discs = [
-            _add(axes, Circle((0, 0), record.readings.object_radius, color=colour, lw=0, zorder=3))
-            for colour in OBJECT_COLOURS.values()
-        ]
+        radius = record.readings.object_radius
         self._halos = [
-            _add(
-                axes,
-                Circle((0, 0), record.readings.object_radius + 3.5, fill=False, ec=CONTACT, lw=1.6, zorder=3),
-            )
+            _add(axes, Circle((0, 0), radius + 3, fill=False, ec=CONTACT, lw=1.2 * points, zorder=3))
             for _ in OBJECT_COLOURS
         ]
-        (self._s1,) = axes.plot([], [], color=ARM, lw=7, solid_capstyle="round", zorder=4)
-        (self._s2,) = axes.plot([], [], color=ARM, lw=4.5, solid_capstyle="round", zorder=4)
-        self._joints: Line2D = axes.plot([], [], "o", color=JOINT, mec=ARM, mew=1.6, ms=6.5, zorder=5)[0]
+        stroke = {"color": ARM, "solid_capstyle": "round", "zorder": 4}
+        (self._s2,) = axes.plot([], [], lw=S2_WIDTH * points, **stroke)
+        (self._s1,) = axes.plot([], [], lw=S1_WIDTH * points, **stroke)
+        self._discs = [
+            _add(axes, Circle((0, 0), radius, color=colour, lw=0, zorder=5))
+            for colour in OBJECT_COLOURS.values()
+        ]
+        joint = {"color": JOINT, "mec": ARM, "mew": 1.6 * points, "zorder": 6}
+        axes.plot(0, 0, "o", ms=9 * points, **joint)
+        (self._joint,) = axes.plot([], [], "o", ms=6 * points, **joint)
         if caption:
-            place = {"ha": "center", "va": "top", "transform": axes.transAxes}
-            words = axes.text(0.5, 0.985, str(record.instruction), fontsize=14, fontweight="bold", **place)
-            words.set_color(OBJECT_COLOURS[record.instruction.object])
-        self._clock = axes.text(0.985, 0.03, "", ha="right", va="bottom", transform=axes.transAxes)
-        self._clock.set(fontsize=9, color=INK)
+            _write_caption(axes, record, note, points)
+        self._clock = axes.text(172, -98, "", ha="right", fontsize=8 * points, color=INK)
         self.show(0)
 
     def show(self, step: float) -> None:
@@ -82,10 +89,10 @@ class Scene:
             ValueError: If the record has no such step.
         """
         alpha, beta, discs, touched = state_at(self._record, step)
-        joints, tip = arm_points(alpha, beta)
-        self._s1.set_data(*np.stack([[0.0, 0.0], joints]).T)
-        self._s2.set_data(*np.stack([joints, tip]).T)
-        self._joints.set_data(*np.stack([[0.0, 0.0], joints]).T)
+        joint, tip = arm_points(alpha, beta)
+        self._s1.set_data(*np.stack([[0.0, 0.0], joint]).T)
+        self._s2.set_data(*np.stack([joint, tip]).T)
+        self._joint.set_data(joint[:1], joint[1:])
         edges = alpha + np.array(
             [-c.VIEW_HALF_WIDTH, -c.MIDDLE_SECTOR_HALF_WIDTH, c.MIDDLE_SECTOR_HALF_WIDTH, c.VIEW_HALF_WIDTH]
         )
@@ -96,7 +103,14 @@ class Scene:
             disc.set_center(tuple(centre))
             halo.set_center(tuple(centre))
             halo.set_visible(bool(touches))
-        self._clock.set_text(f"{step * c.DT:.1f} s")
+        self._clock.set_text(self._time(step))
+
+    def _time(self, step: float) -> str:
+        """The clock and, at the end of a captioned trial, whether the instruction was carried out."""
+        outcome = ""
+        if self._caption and step == self._record.steps:
+            outcome = "carried out, " if self._record.success else "not carried out, "
+        return f"{outcome}{step * c.DT:.1f} s"
 
 
 def draw_state(axes: Axes, record: TrialRecord, step: int) -> None:
@@ -143,22 +157,33 @@ def _add(axes: Axes, patch: Shape) -> Shape:
     return patch
 
 
-def _prepare(axes: Axes) -> None:
-    """Scale the axes to the world and take away what is not part of it."""
-    axes.set(xlim=LIMITS[0], ylim=LIMITS[1], aspect="equal", facecolor=FLOOR, xticks=[], yticks=[])
-    axes.spines[:].set_visible(False)
-    bar = np.array([-168.0, -118.0])
-    axes.plot(bar, [-80.0, -80.0], color=INK, lw=1.2)
-    axes.text(bar.mean(), -77.0, "50 cm", ha="center", va="bottom", fontsize=8, color=INK)
+def _points_per_cm(axes: Axes) -> float:
+    """How many typographic points one centimetre of the world takes."""
+    extent = axes.get_window_extent()
+    (left, right), (bottom, top) = LIMITS
+    pixels = min(extent.width / (right - left), extent.height / (top - bottom))
+    return pixels * 72.0 / axes.figure.dpi
 
 
-def _draw_sectors(axes: Axes, record: TrialRecord) -> None:
-    """Faintly: where S1 can turn to, and the chord each disc starts on."""
-    axes.add_patch(
-        Wedge((0, 0), c.S1_LENGTH, c.ALPHA_MIN, c.ALPHA_MAX, fc="none", ec=FAINT, lw=0.8, zorder=0)
-    )
+def _draw_ground(axes: Axes, record: TrialRecord, points: float) -> None:
+    """Faintly: where J2 can be and where it starts, the chord each disc starts on, and a scale."""
+    reach = {"fill": False, "ec": FAINT, "zorder": 0}
+    axes.add_patch(Wedge((0, 0), c.S1_LENGTH, c.ALPHA_MIN, c.ALPHA_MAX, lw=0.7 * points, **reach))
+    for low, high in record.readings.start_intervals:
+        axes.add_patch(Arc((0, 0), *[2 * c.S1_LENGTH] * 2, theta1=low, theta2=high, lw=2 * points, **reach))
     half = record.readings.sector_half_width
     for centre, colour in zip(record.readings.sector_centres, OBJECT_COLOURS.values(), strict=True):
         ends = np.radians([centre - half, centre + half])
         x, y = c.CHORD_END_DISTANCE * np.cos(ends), c.CHORD_END_DISTANCE * np.sin(ends)
-        axes.plot(x, y, color=colour, alpha=0.35, lw=1.2, zorder=1, solid_capstyle="round")
+        axes.plot(x, y, color=colour, alpha=0.35, lw=points, zorder=2, solid_capstyle="round")
+    axes.plot([-172, -122], [-98, -98], color=INK, lw=0.9 * points)
+    axes.text(-147, -95, "50 cm", ha="center", va="bottom", fontsize=8 * points, color=INK)
+
+
+def _write_caption(axes: Axes, record: TrialRecord, note: str, points: float) -> None:
+    """The instruction in its object's colour, and the note below it."""
+    words = axes.text(0, 193, str(record.instruction), fontsize=14 * points, fontweight="bold")
+    words.set_color(OBJECT_COLOURS[record.instruction.object])
+    line = axes.text(0, 177, note, fontsize=7 * points, color=INK)
+    for text in (words, line):
+        text.set(ha="center", va="top")

@@ -29,13 +29,16 @@ class Panel:
         record: The trial.
         width_px: Width and
         height_px: height of a frame.
-        caption: Whether the instruction is written into it.
+        caption: Whether the instruction and, in the end, the outcome are written into it.
+        note: A line under the instruction.
     """
 
-    def __init__(self, record: TrialRecord, width_px: int, height_px: int, *, caption: bool = True) -> None:
+    def __init__(
+        self, record: TrialRecord, width_px: int, height_px: int, *, caption: bool = True, note: str = ""
+    ) -> None:
         figure = Figure(figsize=(width_px / DPI, height_px / DPI), dpi=DPI, facecolor=FLOOR)
         self._canvas = FigureCanvasAgg(figure)
-        self._scene = Scene(figure.add_axes((0, 0, 1, 1)), record, caption=caption)
+        self._scene = Scene(figure.add_axes((0, 0, 1, 1)), record, caption=caption, note=note)
 
     def frame(self, step: float) -> NDArray[np.uint8]:
         """The picture after `step` steps, [height, width, 3]; fractions lie between two states."""
@@ -44,22 +47,39 @@ class Panel:
         return np.asarray(self._canvas.buffer_rgba())[..., :3].copy()
 
 
-def frames(record: TrialRecord, width_px: int = 960, height_px: int = 720) -> Iterator[NDArray[np.uint8]]:
-    """All frames of a trial's video, [height, width, 3] each."""
-    panel = Panel(record, width_px, height_px)
-    for k in range(record.steps * FRAMES_PER_STEP + 1):
+def frames(
+    record: TrialRecord, width_px: int = 960, height_px: int = 720, *, note: str = ""
+) -> Iterator[NDArray[np.uint8]]:
+    """All frames of a trial's video, [height, width, 3] each; the last one stays for `HOLD_S`."""
+    panel = Panel(record, width_px, height_px, note=note)
+    for k in range(record.steps * FRAMES_PER_STEP):
         yield panel.frame(k / FRAMES_PER_STEP)
-    for _ in range(round(HOLD_S / DT * FRAMES_PER_STEP)):
-        yield panel.frame(record.steps)
+    last = panel.frame(record.steps)
+    for _ in range(1 + round(HOLD_S / DT * FRAMES_PER_STEP)):
+        yield last
 
 
-def render_video(record: TrialRecord, path: Path | str) -> Path:
-    """Write a trial as an MP4 in real time.
+def render_video(record: TrialRecord, path: Path | str, *, note: str = "") -> Path:
+    """Write a trial as an MP4 in real time, at 30 frames per second.
+
+    Args:
+        record: The trial.
+        path: The file, ending in .mp4; its folder has to be there.
+        note: A line under the instruction, such as the agent's run and the trial's seed.
+
+    Returns:
+        The path.
 
     Raises:
+        ValueError: If the path does not end in .mp4.
         OSError: If the file cannot be written.
     """
-    return write_mp4(frames(record), Path(path), round(FRAMES_PER_STEP / DT))
+    path = Path(path)
+    if path.suffix.lower() != ".mp4":
+        raise ValueError(
+            f"{path} does not end in .mp4, the one kind of video written here; choose such a name"
+        )
+    return write_mp4(frames(record, note=note), path, round(FRAMES_PER_STEP / DT))
 
 
 def write_mp4(pictures: Iterable[NDArray[np.uint8]], path: Path, per_second: int) -> Path:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import chain, combinations
 from math import comb
 from typing import Final
 
@@ -52,38 +52,46 @@ def compare(first: NDArray[np.float64], second: NDArray[np.float64], rng: np.ran
         raise ValueError(
             f"a comparison needs runs of both conditions; there are {len(first)} and {len(second)}"
         )
+    values = np.concatenate([first, second])
     delta = np.sign(np.subtract.outer(first, second)).mean()
     return Comparison(
         means=(float(first.mean()), float(second.mean())),
         difference=float(first.mean() - second.mean()),
         interval=bootstrap_interval([first, second], _difference_of_means, rng),
-        mann_whitney_p=permutation_test(first, second, rank_statistic, rng),
-        permutation_p=permutation_test(first, second, mean_statistic, rng),
+        mann_whitney_p=permutation_test(midranks(values), len(first), rng),
+        permutation_p=permutation_test(values, len(first), rng),
         cliffs_delta=float(delta),
     )
 
 
-def permutation_test(
-    first: NDArray[np.float64],
-    second: NDArray[np.float64],
-    statistic: Callable[[NDArray[np.float64], NDArray[np.bool_]], float],
-    rng: np.random.Generator,
-) -> float:
-    """Two-sided p: the share of all ways to share out the runs that differ at least as much as these do.
+def permutation_test(scores: NDArray[np.float64], n: int, rng: np.random.Generator) -> float:
+    """Two-sided p: the share of all ways to choose n runs whose scores sum up at least as far off as these.
 
-    With the rank statistic this is the exact Mann-Whitney test, ties included. Counted in full while
-    there are at most `LARGEST_EXACT` ways, otherwise as many are drawn.
+    Of the values themselves it compares means; of their midranks it is the exact Mann-Whitney test, ties
+    included. Counted in full while there are at most `LARGEST_EXACT` ways, otherwise as many are drawn.
+
+    Args:
+        scores: One per run; those of the first group come first.
+        n: Runs in the first group.
+        rng: Draws, where it comes to that.
     """
-    values, n, total = np.concatenate([first, second]), len(first), len(first) + len(second)
-    observed = statistic(values, np.arange(total) < n)
-    if comb(total, n) <= LARGEST_EXACT:
-        chosen = combinations(range(total), n)
-        masks = (_mask(indices, total) for indices in chosen)
-        extreme = [statistic(values, mask) >= observed - 1e-12 for mask in masks]
-        return float(np.mean(extreme))
-    masks = (rng.permutation(total) < n for _ in range(LARGEST_EXACT))
-    extreme = sum(statistic(values, mask) >= observed - 1e-12 for mask in masks)
-    return (extreme + 1) / (LARGEST_EXACT + 1)
+    total = len(scores)
+    exact = comb(total, n) <= LARGEST_EXACT
+    if exact:
+        chosen = np.fromiter(chain.from_iterable(combinations(range(total), n)), np.int64).reshape(-1, n)
+    else:
+        chosen = rng.permuted(np.tile(np.arange(total), (LARGEST_EXACT, 1)), axis=1)[:, :n]
+    off = np.abs(scores[chosen].sum(axis=1) - n * scores.mean())
+    observed = abs(scores[:n].sum() - n * scores.mean())
+    extreme = np.count_nonzero(off >= observed - 1e-12 * max(1.0, np.abs(scores).max()))
+    return float(extreme / len(chosen) if exact else (extreme + 1) / (len(chosen) + 1))
+
+
+def midranks(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Ranks from 1, equals sharing the mean of theirs."""
+    below = np.less.outer(values, values).sum(axis=0)
+    equal = np.equal.outer(values, values).sum(axis=0)
+    return below + (equal + 1) / 2
 
 
 def bootstrap_interval(
@@ -119,23 +127,6 @@ def wilcoxon_as_published(first: NDArray[np.float64], second: NDArray[np.float64
 
     result = ranksums(first, second)
     return float(result.statistic), float(result.pvalue)
-
-
-def _mask(indices: tuple[int, ...], total: int) -> NDArray[np.bool_]:
-    mask = np.zeros(total, bool)
-    mask[list(indices)] = True
-    return mask
-
-
-def mean_statistic(values: NDArray[np.float64], mask: NDArray[np.bool_]) -> float:
-    """Distance between the means of the masked values and of the others."""
-    return abs(float(values[mask].mean() - values[~mask].mean()))
-
-
-def rank_statistic(values: NDArray[np.float64], mask: NDArray[np.bool_]) -> float:
-    """Distance of Mann-Whitney's U from its expectation, ties counting one half."""
-    u = (0.5 * (1.0 + np.sign(np.subtract.outer(values[mask], values[~mask])))).sum()
-    return abs(float(u) - 0.5 * mask.sum() * (~mask).sum())
 
 
 def _difference_of_means(groups: list[NDArray[np.float64]]) -> NDArray[np.float64]:

@@ -8,7 +8,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from arm2d import draw_state, record_trial, render_video
-from arm2d.drawing import OBJECT_COLOURS, arm_points, state_at
+from arm2d.drawing import OBJECT_COLOURS, Scene, arm_points, state_at
 from arm2d.video import Panel
 
 
@@ -54,6 +54,28 @@ def test_state_names_the_instruction(record):
     assert "TOUCH Green" in [text.get_text() for text in axes.texts]
 
 
+def test_note_stands_under_the_instruction(record):
+    axes = Figure().add_subplot()
+    Scene(axes, record, note="run 7, trial 3")
+    assert "run 7, trial 3" in [text.get_text() for text in axes.texts]
+
+
+def test_last_state_says_how_the_trial_went(record):
+    axes = Figure().add_subplot()
+    scene = Scene(axes, record)
+    scene.show(record.steps - 0.5)
+    assert not any("carried out" in text.get_text() for text in axes.texts)
+    scene.show(record.steps)
+    assert f"not carried out, {record.steps / 10} s" in [text.get_text() for text in axes.texts]
+
+
+def test_small_picture_is_a_large_one_seen_from_afar(record):
+    large = Panel(record, 960, 720).frame(5)
+    small = Panel(record, 480, 360).frame(5)
+    shares = [[pixels_like(each, OBJECT_COLOURS[2]) / each[..., 0].size] for each in (small, large)]
+    assert shares[0] == pytest.approx(shares[1], rel=0.25)  # edges take a larger part of a small disc
+
+
 def test_step_that_does_not_exist_is_refused(record):
     with pytest.raises(
         ValueError, match=f"step 251 does not exist; this trial has the states 0 to {record.steps}"
@@ -68,6 +90,11 @@ def test_video_lasts_as_long_as_the_trial_and_its_hold(record, tmp_path):
         meta = reader.get_meta_data()
     assert meta["duration"] == pytest.approx(short.steps * 0.1 + 1.0, abs=0.1)
     assert [each.name for each in tmp_path.iterdir()] == ["trial.mp4"]
+
+
+def test_video_of_another_kind_is_refused(record, tmp_path):
+    with pytest.raises(ValueError, match=r"trial.gif does not end in .mp4"):
+        render_video(record, tmp_path / "trial.gif")
 
 
 def test_video_into_a_missing_folder_leaves_nothing_behind(record, tmp_path):
