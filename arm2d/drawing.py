@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import Final, TypeVar
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, Wedge
 
@@ -39,7 +40,7 @@ S2_WIDTH: Final = 3.4
 
 
 class Scene:
-    """A trial in matplotlib axes, to be moved from step to step without being drawn anew.
+    """A trial in matplotlib axes, to be moved from step to step without being set up anew.
 
     All widths and letters are in proportion to the axes' size when the scene is made, so that a small
     panel shows the same picture as a large one.
@@ -75,11 +76,14 @@ class Scene:
             for colour in OBJECT_COLOURS.values()
         ]
         joint = {"color": JOINT, "mec": ARM, "mew": 1.6 * points, "zorder": 6}
-        axes.plot(0, 0, "o", ms=9 * points, **joint)
+        (base,) = axes.plot(0, 0, "o", ms=9 * points, **joint)
         (self._joint,) = axes.plot([], [], "o", ms=6 * points, **joint)
         if caption:
             _write_caption(axes, record, note, points)
-        self._clock = axes.text(172, -98, "", ha="right", fontsize=8 * points, color=INK)
+        self._clock = axes.text(0, -98, "", ha="center", fontsize=8 * points, color=INK)
+        arm = [self._s2, self._s1, *self._discs, base, self._joint]
+        # From back to front: what a step can change, or what lies above that.
+        self.moving: list[Artist] = [*self._camera, *self._halos, *arm, self._clock]
         self.show(0)
 
     def show(self, step: float) -> None:
@@ -175,7 +179,7 @@ def _draw_ground(axes: Axes, record: TrialRecord, points: float) -> None:
     for centre, colour in zip(record.readings.sector_centres, OBJECT_COLOURS.values(), strict=True):
         ends = np.radians([centre - half, centre + half])
         x, y = c.CHORD_END_DISTANCE * np.cos(ends), c.CHORD_END_DISTANCE * np.sin(ends)
-        axes.plot(x, y, color=colour, alpha=0.35, lw=points, zorder=2, solid_capstyle="round")
+        axes.plot(x, y, color=colour, alpha=0.35, lw=points, zorder=0, solid_capstyle="round")
     axes.plot([-172, -122], [-98, -98], color=INK, lw=0.9 * points)
     axes.text(-147, -95, "50 cm", ha="center", va="bottom", fontsize=8 * points, color=INK)
 

@@ -38,12 +38,23 @@ class Panel:
     ) -> None:
         figure = Figure(figsize=(width_px / DPI, height_px / DPI), dpi=DPI, facecolor=FLOOR)
         self._canvas = FigureCanvasAgg(figure)
-        self._scene = Scene(figure.add_axes((0, 0, 1, 1)), record, caption=caption, note=note)
+        self._axes = figure.add_axes((0, 0, 1, 1))
+        self._scene = Scene(self._axes, record, caption=caption, note=note)
+        for artist in self._scene.moving:
+            artist.set_animated(True)
+        self._canvas.draw()
+        self._background = self._canvas.copy_from_bbox(figure.bbox)
 
     def frame(self, step: float) -> NDArray[np.uint8]:
-        """The picture after `step` steps, [height, width, 3]; fractions lie between two states."""
+        """The picture after `step` steps, [height, width, 3]; fractions lie between two states.
+
+        Raises:
+            ValueError: If the record has no such step.
+        """
         self._scene.show(step)
-        self._canvas.draw()
+        self._canvas.restore_region(self._background)
+        for artist in self._scene.moving:
+            self._axes.draw_artist(artist)
         return np.asarray(self._canvas.buffer_rgba())[..., :3].copy()
 
 

@@ -49,16 +49,12 @@ def _draw_fitness(axes: Axes, results: ConditionResults) -> None:
     for seed, best, first, colour in zip(
         results.seeds, results.best, results.first_solved, colours, strict=True
     ):
-        smooth = running_median(best)
-        axes.plot(smooth, color=colour, lw=1.2)
-        axes.annotate(
-            f"{seed}", (len(best) - 1, smooth[-1]), xytext=(3, 0), textcoords="offset points",
-            va="center", fontsize=7, color=colour,
-        )  # fmt: skip
+        axes.plot(running_median(best), color=colour, lw=1.2, label=f"seed {seed}")
         if first >= 0:
             axes.plot(first, best[first], "o", ms=4.5, color=colour, mec="white", mew=0.7, zorder=4)
     note = f"{results.at_plateau} of {len(results.runs)} runs end at 18/7"
-    axes.text(0.98, 0.06, note, transform=axes.transAxes, ha="right", fontsize=8.5, color=FAINT)
+    axes.text(0.98, 0.04, note, transform=axes.transAxes, ha="right", fontsize=8.5, color=FAINT)
+    axes.legend(frameon=False, fontsize=7, ncols=2, loc="lower right", bbox_to_anchor=(1.0, 0.09))
     axes.set(xlabel="generation", ylim=(0.0, 2.75))
     axes.spines[["top", "right"]].set_visible(False)
 
@@ -150,7 +146,8 @@ def transitions_figure(results: Results) -> Figure:
                 (pair[1], "object", object_transitions(condition)),
             ):
                 _draw_transitions(axes, each, test, transitions)
-                axes.set_title(f"{TITLES[condition]}: {test} word changes", loc="left", fontweight="bold")
+                title = f"{TITLES[condition]}: {test} word changes"
+                axes.set_title(title, loc="left", fontweight="bold", pad=46)
             pair[0].set_ylabel("successful trials [%]")
     return figure
 
@@ -171,7 +168,9 @@ def _draw_transitions(
     axes.set_ylim(-4, 104)
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(axis="x", color=FAINT, alpha=0.25, lw=0.5)
-    axes.legend(frameon=False, fontsize=7.5, loc="upper left", bbox_to_anchor=(0.0, -0.6), ncols=1)
+    axes.legend(
+        frameon=False, fontsize=7.5, loc="lower left", bbox_to_anchor=(-0.02, 0.99), borderaxespad=0.2, labelspacing=0.25
+    )  # fmt: skip
 
 
 def _short(transition: Transition, test: str) -> str:

@@ -23,6 +23,7 @@ class Purpose(IntEnum):
     RECORDING = 6
     POST_EVALUATION = 7
     TRANSITIONS = 8
+    BEHAVIOUR = 9
     STATISTICS = 10
 
 

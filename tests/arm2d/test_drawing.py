@@ -66,7 +66,7 @@ def test_last_state_says_how_the_trial_went(record):
     scene.show(record.steps - 0.5)
     assert not any("carried out" in text.get_text() for text in axes.texts)
     scene.show(record.steps)
-    assert f"not carried out, {record.steps / 10} s" in [text.get_text() for text in axes.texts]
+    assert f"carried out, {record.steps / 10} s" in [text.get_text() for text in axes.texts]
 
 
 def test_small_picture_is_a_large_one_seen_from_afar(record):
