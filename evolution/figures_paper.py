@@ -125,7 +125,7 @@ def _draw_generalisers(axes: Axes, results: ConditionResults) -> None:
             some = counts > 0
             axes.vlines(
                 results.generations[some], row + 0.42 - 0.16 * counts[some], row + 0.42,
-                color=CLASS_COLOURS[kind], lw=0.6,
+                color=CLASS_COLOURS[kind], lw=0.6 if kind is AgentClass.PARTIAL else 1.6,
             )  # fmt: skip
     axes.set_yticks(range(len(results.runs)), [f"seed {seed}" for seed in results.seeds], fontsize=8)
     axes.set_ylim(len(results.runs) - 0.5, -0.6)
@@ -168,9 +168,8 @@ def _draw_transitions(
     axes.set_ylim(-4, 104)
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(axis="x", color=FAINT, alpha=0.25, lw=0.5)
-    axes.legend(
-        frameon=False, fontsize=7.5, loc="lower left", bbox_to_anchor=(-0.02, 0.99), borderaxespad=0.2, labelspacing=0.25
-    )  # fmt: skip
+    above = {"loc": "lower left", "bbox_to_anchor": (-0.02, 0.99), "borderaxespad": 0.2}
+    axes.legend(frameon=False, fontsize=7.5, labelspacing=0.25, **above)
 
 
 def _short(transition: Transition, test: str) -> str:
