@@ -27,7 +27,7 @@ test: $(READY)  ## all tests, on all cores
 lint: $(READY)  ## style and types
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/pyright
+	$(BIN)/pyright --pythonpath $(BIN)/python
 
 format: $(READY)  ## rewrite the sources in the project's style
 	$(BIN)/ruff check --fix .

@@ -14,8 +14,10 @@ import tyro
 from tyro.conf import subcommand
 
 from arm2d import Readings
+from evolution.commands.analyse import Analyse
 from evolution.commands.evaluate import Evaluate
 from evolution.commands.evolve import Evolve, UncheckedReadings
+from evolution.commands.lineage import LineageCommand
 from evolution.commands.plot import Plot
 from evolution.commands.port import Port
 from evolution.commands.postevaluate import PostEvaluate
@@ -27,7 +29,7 @@ BAD_INPUT: Final = 2
 INTERRUPTED: Final = 130
 BROKEN_PIPE: Final = 141
 
-Command = Evolve | Evaluate | Plot | Port | PostEvaluate | Repair | Ship
+Command = Evolve | Evaluate | LineageCommand | Plot | Port | PostEvaluate | Repair | Ship | Analyse
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -63,11 +65,13 @@ def _parse(arguments: Sequence[str], evolve: Evolve) -> Command:
     commands = (
         Annotated[Evolve, subcommand("evolve", default=evolve)]
         | Annotated[Evaluate, subcommand("evaluate")]
+        | Annotated[LineageCommand, subcommand("lineage")]
         | Annotated[Plot, subcommand("plot")]
         | Annotated[Port, subcommand("port")]
         | Annotated[PostEvaluate, subcommand("postevaluate")]
         | Annotated[Repair, subcommand("repair")]
         | Annotated[Ship, subcommand("ship")]
+        | Annotated[Analyse, subcommand("analyse")]
     )
     return tyro.cli(commands, prog="wordarm", description=DESCRIPTION, args=arguments)  # pyright: ignore
 
