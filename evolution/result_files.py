@@ -106,8 +106,8 @@ def summary(results: Results) -> str:
         full = int((each.generalisers.sum(axis=1) > 0).sum())
         top = f"{100 * share.mean():.1f} % of the agents [{100 * low:.1f}, {100 * high:.1f}]"
         sentences.append(
-            f"{condition}: {each.at_plateau} of {len(each.runs)} runs end at the largest fitness; {top} are in "
-            f"category 10 of sub-task I; runs with fully compositional agents: {full}."
+            f"{condition}: {each.at_plateau} of {len(each.runs)} runs end at the largest fitness; {top} "
+            f"are in category 10 of sub-task I; runs with fully compositional agents: {full}."
         )
     return "\n".join([*sentences, *results.missing])
 
