@@ -1,0 +1,112 @@
+"""The line of ancestors of one agent, from generation 0 to itself.
+
+Parents are recorded as indices, so the line is first walked backwards through them; then the run's
+populations are bred again from generation 0 on, once, and the ancestor of each is kept. Nothing is
+scored. Axes: G generations of the line, 84 genes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d.constants import N_GENES
+from evolution.algorithm import rank as ranking
+from evolution.folder import RunFolder
+from evolution.history import History
+from evolution.population import first_population
+from evolution.recorded import recorded_history
+from evolution.replay import ContradictionError, replay
+
+
+@dataclass(frozen=True)
+class Lineage:
+    """An agent and its ancestors, one in each generation; the agent itself comes last.
+
+    Attributes:
+        generations: [G], 0 to the agent's.
+        indices: [G], where the ancestor stands in its generation.
+        genotypes: [G, 84], bit by bit those that the run bred.
+        fitness: [G], what the ancestor scored in the 28 trials of its generation.
+        changed: [G], whether its genes are other than its parent's; True in generation 0.
+    """
+
+    generations: NDArray[np.int64]
+    indices: NDArray[np.int64]
+    genotypes: NDArray[np.float64]
+    fitness: NDArray[np.float64]
+    changed: NDArray[np.bool_]
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            getattr(self, each.name).flags.writeable = False
+
+    def __len__(self) -> int:
+        return len(self.generations)
+
+    @property
+    def distinct(self) -> NDArray[np.float64]:
+        """The ancestors without the unchanged copies, [A, 84]."""
+        return self.genotypes[self.changed]
+
+    @property
+    def versions(self) -> NDArray[np.int64]:
+        """For each generation the row of `distinct` that lived in it, [G]."""
+        return np.cumsum(self.changed) - 1
+
+
+def trace_lineage(folder: RunFolder, generation: int | None = None, rank: int = 0) -> Lineage:
+    """Rebuild the line of ancestors of an agent of a run.
+
+    Args:
+        folder: The run, finished or not.
+        generation: The agent's; by default the last that was scored.
+        rank: 0 for the best of its generation.
+
+    Raises:
+        ValueError: If the run has no such generation or rank.
+        DamagedFileError: If the recorded parents or genotypes are not those that the run breeds.
+    """
+    history = recorded_history(folder)
+    last = len(history) - 1 if generation is None else generation
+    if not 0 <= last < len(history):
+        raise ValueError(f"{folder.path} has no generation {last}; it has {len(history)}, numbered from 0")
+    n_genotypes = history.fitness.shape[1]
+    if not 0 <= rank < n_genotypes:
+        raise ValueError(f"rank {rank} does not exist; the generation has ranks 0 to {n_genotypes - 1}")
+    history = history[: last + 1]
+    indices = ancestor_indices(history.parents, int(ranking(history.fitness[-1])[rank]))
+    genotypes = _breed_line(folder, history, indices)
+    copied = np.all(genotypes[1:] == genotypes[:-1], axis=1)
+    rows = np.arange(last + 1)
+    return Lineage(rows, indices, genotypes, history.fitness[rows, indices], np.append(True, ~copied))
+
+
+def ancestor_indices(parents: NDArray[np.integer], last_index: int) -> NDArray[np.int64]:
+    """Where the ancestors of genotype `last_index` of the last generation stand in theirs, [G].
+
+    Args:
+        parents: [G, P], indices into the generation before.
+        last_index: Index into the last generation.
+    """
+    indices = np.empty(len(parents), np.int64)
+    indices[-1] = last_index
+    for row in range(len(parents) - 1, 0, -1):
+        indices[row - 1] = parents[row, indices[row]]
+    return indices
+
+
+def _breed_line(folder: RunFolder, history: History, indices: NDArray[np.int64]) -> NDArray[np.float64]:
+    """The genotype at each index of each generation, [G, 84]; every generation is held against the record."""
+    genotypes = np.empty((len(indices), N_GENES))
+    population = first_population(folder.config)
+    for row, index in enumerate(indices):
+        genotypes[row] = population.genotypes[index]
+        try:
+            population = replay(population, history[row : row + 1], folder.config)
+        except ContradictionError as error:
+            span = next(each for each in folder.spans if row in each)
+            raise folder.damaged(span, str(error)) from None
+    return genotypes
