@@ -121,17 +121,17 @@ ICUB = Robot(
         "r_wrist_yaw",
     ),
     hand_frame="r_hand_dh_frame",
-    # The palm's edge on the little finger's side lies at y = 0.0325: it stands out 16 mm to the right of
-    # the point, so that it meets a cylinder of 25 mm when S2 meets the disc of 5 cm, 9 mm on the table.
-    hand_offset=(0.07, 0.0165, -0.010),
-    base_position=(-0.0493, -0.2851, 0.1482),
+    # The palm's edge on the little finger's side lies at y = 0.033: 17 mm to the left of the point. The cylinder
+    # of 25 mm, its centre 9 mm to the right of the point when S2 meets the disc of 5 cm, then meets that edge.
+    hand_offset=(0.085, 0.05, -0.010),
+    base_position=(-0.1983, -0.2758, 0.0223),
     base_yaw=-pi / 2,  # the iCub of the URDF faces -x
     plane=PlaneMap(scale=0.0018, hand_height=0.05, heading_range=(-pi / 12, 17 * pi / 18)),
     posture=Posture(
-        rest=(0.044, 0.065, -0.744, -0.468, 1.23, 0.093, 0.603, 0.282, -0.555, 0.048),
-        weights=(0.6188, 1.7055, 0.1802, 0.0489, 0.1591, 0.0516, 0.0343, 0.0528, 0.1382, 0.0317),
-        heading_weight=0.1,
-        level_weight=0.1,
+        rest=(0.170, 0.018, -0.285, -1.254, 1.029, 0.550, 0.675, 0.823, -0.211, 0.004),
+        weights=(0.419, 0.522, 0.262, 0.0110, 0.0775, 0.0182, 0.142, 0.0305, 0.233, 0.217),
+        heading_weight=0.195,
+        level_weight=0.455,
         inertia=0.3,
     ),
     # Nothing of the legs is seen at the table, and they are half of the triangles to be drawn.
