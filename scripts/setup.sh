@@ -29,7 +29,11 @@ find_python() {
     done
 }
 
-has_gl() { ldconfig -p | grep -q 'libEGL\.so\.1' && ls /usr/share/glvnd/egl_vendor.d/*.json >/dev/null 2>&1; }
+# A loader of EGL, and a driver for it: Mesa's draws in software.
+has_gl() {
+    "$python" -c 'import ctypes; ctypes.CDLL("libEGL.so.1")' 2>/dev/null &&
+        ls /usr/share/glvnd/egl_vendor.d/*.json /etc/glvnd/egl_vendor.d/*.json 2>/dev/null | grep -q .
+}
 
 python=$(find_python)
 if [ -z "$python" ] && may_install; then

@@ -1,7 +1,7 @@
 """docs/ledger.md against arm2d.Readings: it cannot drift."""
 
 import re
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
@@ -26,6 +26,21 @@ def test_bold_value_is_the_default(name):
     default = getattr(Readings(), name)
     shown = ", ".join(map(str, default)) if isinstance(default, tuple) else str(default)
     assert bold == shown
+
+
+@pytest.mark.parametrize("name", sorted(set(ROWS) - set(choices())))
+def test_every_listed_number_can_be_chosen(name):
+    alternatives = re.findall(r"`([^`]+)`", ROWS[name])
+    assert alternatives
+    for text in alternatives:
+        numbers = [float(part) for part in text.split(",")]
+        Readings.from_mapping({name: numbers if name == "sector_centres" else numbers[0]})
+
+
+def test_page_names_what_the_printed_preset_changes():
+    default, printed = Readings(), Readings.preset("printed")
+    assert replace(printed, ignore_stops=default.ignore_stops) == default
+    assert "differs from the default in `ignore_stops` alone" in " ".join(PAGE.split())
 
 
 @pytest.mark.parametrize("name", list(choices()))

@@ -1,5 +1,6 @@
 """What README and docs say is so: the snippet runs, links lead somewhere, commands exist."""
 
+import os
 import re
 import subprocess
 import sys
@@ -16,6 +17,14 @@ def test_snippet_runs_as_printed():
     (snippet,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
     done = subprocess.run([sys.executable, "-c", snippet], capture_output=True, text=True, check=True)
     assert "MOVE Blue" in done.stdout
+
+
+def test_tour_of_the_api_runs_as_printed(tmp_path):
+    tour = "\n".join(re.findall(r"```python\n(.*?)```", (ROOT / "docs/api.md").read_text(), re.DOTALL))
+    subprocess.run(
+        [sys.executable, "-c", tour], cwd=tmp_path, env={**os.environ, "MPLBACKEND": "agg"}, check=True
+    )
+    assert (tmp_path / "touch-green.mp4").stat().st_size > 10_000
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
