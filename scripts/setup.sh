@@ -57,10 +57,10 @@ fi
 say "installing Python packages into $venv"
 "$venv/bin/python" -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
 
+# Nothing but videos of the robot needs these, so a machine that cannot get them goes on without.
 if ! has_gl; then
-    if may_install; then
-        install libegl1 libgl1 libgl1-mesa-dri
-    else
-        say "no EGL library for rendering without a screen; run: apt-get install libegl1 libgl1 libgl1-mesa-dri"
-    fi
+    libraries="libegl1 libgl1 libgl1-mesa-dri"
+    # shellcheck disable=SC2086 # three words
+    { may_install && install $libraries; } ||
+        say "no EGL library to draw the robot without a screen; run: apt-get install $libraries"
 fi
