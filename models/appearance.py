@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 from types import MappingProxyType
 
 
@@ -96,11 +97,30 @@ def eye(
     )
 
 
+def line(
+    link: str, points: tuple[tuple[float, float, float], ...], radius: float, material: str
+) -> tuple[Ornament, ...]:
+    """Make a rounded line through points [3] in [m] of a link, such as a mouth."""
+    return tuple(
+        Ornament(link, "capsule", (radius,), start, material, to=end) for start, end in pairwise(points)
+    )
+
+
 ICUB_COVERS = (
     "chest",
     *(f"{side}_{link}" for side in "lr" for link in ("upper_arm", "elbow_1", "forearm")),
 )
-GAZE = (0.0, -0.34, 0.94)  # y is up and z ahead in the iCub's head: 20 degrees down, to the table
+GAZE = (0.0, -0.17, 0.985)  # y is up and z ahead in the iCub's head: 10 degrees down, to the table
+# Where the robot has lines of red lamps; the points lie on the surface of the head's mesh [m].
+BROW = ((0.021, 0.138, 0.0785), (0.034, 0.142, 0.0737), (0.047, 0.139, 0.0680))
+MOUTH = (
+    (-0.022, 0.0515, 0.0780),
+    (-0.012, 0.0475, 0.0792),
+    (0.0, 0.0460, 0.0812),
+    (0.012, 0.0475, 0.0792),
+    (0.022, 0.0515, 0.0780),
+)
+LAMP_RADIUS = 0.0022  # [m]
 
 ICUB_APPEARANCE = Appearance(
     materials={**dict.fromkeys(ICUB_COVERS, "cover"), "head": "shell", "l_hand": "shell", "r_hand": "shell"},
@@ -121,5 +141,8 @@ ICUB_APPEARANCE = Appearance(
         Ornament("root_link", "cylinder", (0.16,), (0.0, 0.0, -0.77), "leg", to=(0.0, 0.0, -0.788)),
         *eye("head", (0.034, 0.1043, 0.0505), GAZE),
         *eye("head", (-0.034, 0.1043, 0.0505), GAZE),
+        *line("head", MOUTH, LAMP_RADIUS, "lamp"),
+        *line("head", BROW, LAMP_RADIUS, "lamp"),
+        *line("head", tuple((-x, y, z) for x, y, z in BROW), LAMP_RADIUS, "lamp"),
     ),
 )

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 
 from models.appearance import MeshSwap, Ornament
+from models.meshes import read_mesh, thin_to
 from models.robots import Robot
 from models.urdf import find_urdf, read_urdf, share_folder
 
@@ -17,6 +18,9 @@ HAND_SITE = "robot/hand"  # the point that plays S2's end
 VISUAL_GROUP = 1
 SHELL_INERTIA = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # shown meshes need not be closed
 UNCOLOURED = [0.5, 0.5, 0.5, 1.0]  # the one colour that lets a material's own through
+# Triangles of one mesh, and the cells [m] tried one after the other to get there: chosen by eye.
+MAX_FACES = 4000
+CELLS = (0.002, 0.003, 0.004, 0.005, 0.006)
 
 SHAPES = {
     "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
@@ -56,6 +60,8 @@ def robot_spec(robot: Robot) -> mujoco.MjSpec:
     """Read a robot's URDF: acting joints only, and the hand's reference point as a site."""
     spec = mujoco.MjSpec.from_string(read_urdf(robot))
     spec.compiler.fusestatic = False  # a fused link would lose its name
+    for mesh in spec.meshes:
+        thin_mesh(mesh)
     spec.body(robot.hand_frame).add_site(name="hand", pos=list(robot.hand_offset), size=[0.005] * 3, group=5)
     for link in robot.left_out:
         spec.delete(spec.body(link))
@@ -64,6 +70,15 @@ def robot_spec(robot: Robot) -> mujoco.MjSpec:
         if joint.name not in acting:
             fix_joint(spec, joint, robot.fixed.get(joint.name, 0.0))
     return spec
+
+
+def thin_mesh(mesh: mujoco.MjsMesh) -> None:
+    """Replace a mesh's file by what it holds, with at most `MAX_FACES` triangles where cells allow for it."""
+    cells = [cell / abs(mesh.scale[0]) for cell in CELLS]
+    vertices, faces = thin_to(*read_mesh(Path(mesh.file)), MAX_FACES, cells)
+    mesh.file = ""
+    mesh.uservert, mesh.userface = vertices.ravel(), faces.ravel()
+    mesh.inertia = SHELL_INERTIA
 
 
 def fix_joint(spec: mujoco.MjSpec, joint: mujoco.MjsJoint, angle: float) -> None:
@@ -143,13 +158,3 @@ def add_ornament(scene: mujoco.MjSpec, ornament: Ornament) -> None:
         place = {"fromto": [*ornament.position, *ornament.to]}
     geom = body.add_geom(type=SHAPES[ornament.shape], size=size, **place)
     show(geom, ornament.material)
-
-
-def read_mesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Read a mesh that MuJoCo cannot: vertices [V, 3] in the file's unit, faces [F, 3]."""
-    import coal
-
-    mesh = coal.MeshLoader().load(str(path), np.ones(3))
-    corners = [mesh.tri_indices(i) for i in range(mesh.num_tris)]
-    faces = np.array([[triangle[0], triangle[1], triangle[2]] for triangle in corners], dtype=np.int32)
-    return np.array(mesh.vertices()), faces

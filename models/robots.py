@@ -139,9 +139,9 @@ ICUB = Robot(
     fixed={
         "neck_pitch": -0.15,
         "neck_yaw": -0.35,
-        "l_shoulder_pitch": -0.2,
-        "l_shoulder_roll": 0.35,
-        "l_elbow": 0.9,
+        "l_shoulder_pitch": 0.1,
+        "l_shoulder_roll": 0.3,
+        "l_elbow": 0.4,
     },
     appearance=ICUB_APPEARANCE,
 )
