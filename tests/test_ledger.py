@@ -44,6 +44,13 @@ def test_page_names_what_the_printed_preset_changes():
 
 
 @pytest.mark.parametrize("name", list(choices()))
-def test_every_word_that_can_be_chosen_is_listed(name):
-    for word in choices()[name]:
-        assert word in ROWS[name]
+def test_words_listed_are_the_words_that_can_be_chosen(name):
+    listed = re.findall(r"\*\*(\w+)\*\*|`(\w+)`", ROWS[name])
+    assert {bold or plain for bold, plain in listed} == set(choices()[name])
+
+
+def test_every_row_gives_words_of_the_article_and_a_reason():
+    for row in re.findall(r"^\| `\w+` \|.*$", PAGE, re.MULTILINE):
+        cells = [cell.strip() for cell in row.strip("|").split("|")]
+        assert len(cells) == 4
+        assert all(cells), row
