@@ -112,7 +112,7 @@ ICUB_COVERS = (
 )
 GAZE = (0.0, -0.17, 0.985)  # y is up and z ahead in the iCub's head: 10 degrees down, to the table
 # Where the robot has lines of red lamps; the points lie on the surface of the head's mesh [m].
-BROW = ((0.021, 0.138, 0.0785), (0.034, 0.142, 0.0737), (0.047, 0.139, 0.0680))
+BROW = ((0.020, 0.1425, 0.0787), (0.033, 0.1430, 0.0742), (0.046, 0.1375, 0.0687))
 MOUTH = (
     (-0.022, 0.0515, 0.0780),
     (-0.012, 0.0475, 0.0792),
@@ -120,7 +120,7 @@ MOUTH = (
     (0.012, 0.0475, 0.0792),
     (0.022, 0.0515, 0.0780),
 )
-LAMP_RADIUS = 0.0022  # [m]
+LAMP_RADIUS = 0.0020  # [m]
 
 ICUB_APPEARANCE = Appearance(
     materials={**dict.fromkeys(ICUB_COVERS, "cover"), "head": "shell", "l_hand": "shell", "r_hand": "shell"},

@@ -121,8 +121,8 @@ ICUB = Robot(
         "r_wrist_yaw",
     ),
     hand_frame="r_hand_dh_frame",
-    # The palm's edge on the little finger's side lies at y = 0.033: 17 mm to the left of the point. The cylinder
-    # of 25 mm, its centre 9 mm to the right of the point when S2 meets the disc of 5 cm, then meets that edge.
+    # The palm's edge on the little finger's side lies at y = 0.033, 17 mm to the left of the point. When S2
+    # meets the disc of 5 cm, the cylinder's centre is 9 mm to the right of it: 25 mm, its radius, apart.
     hand_offset=(0.085, 0.05, -0.010),
     base_position=(-0.1983, -0.2758, 0.0223),
     base_yaw=-pi / 2,  # the iCub of the URDF faces -x
