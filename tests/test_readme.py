@@ -6,6 +6,7 @@ import shlex
 import subprocess
 import sys
 from pathlib import Path
+from pkgutil import resolve_name
 
 import pytest
 
@@ -92,6 +93,16 @@ def test_make_targets_exist(page):
 def test_readme_speaks_of_the_run_that_the_demo_makes():
     (seed,) = re.findall(r"^DEMO_SEED \?= (\d+)$", MAKEFILE, re.MULTILINE)
     assert f"(With-Indicate, seed {seed})" in README
+
+
+def test_names_listed_in_the_api_exist():
+    text = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
+    for package, section in re.findall(r"^## Names in (\w+).*?\n(.*?)(?=^## |\Z)", text, re.M | re.S):
+        cells = re.findall(r"^\| (`.*?`) \|", section, re.MULTILINE)
+        assert cells
+        for name in re.findall(r"`(\w[\w.]*)", " ".join(cells)):
+            in_full = name.startswith(("arm2d.", "models.", "mujoco_port."))
+            resolve_name(name if in_full else f"{package}.{name}")
 
 
 def test_modules_named_in_the_docs_exist():
