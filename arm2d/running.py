@@ -24,7 +24,12 @@ NO_RECORDING = np.empty((0, loop.RECORD_COLUMNS))
 
 
 def run_trials(
-    genotypes: ArrayLike, trials: Trials, readings: Readings | None = None, *, threads: int = 1
+    genotypes: ArrayLike,
+    trials: Trials,
+    readings: Readings | None = None,
+    *,
+    threads: int = 1,
+    word_codes: NDArray[np.int64] = WORD_CODES,
 ) -> TrialScores:
     """Run every trial with every genotype.
 
@@ -33,6 +38,8 @@ def run_trials(
         trials: T trials, the same for all genotypes.
         readings: The world; the default readings if none are given.
         threads: Genotypes are shared out among so many threads. The results do not depend on it.
+        word_codes: [7, 3], how three object words, then four action words are heard; by default as spec
+            section 4 has them. A lesion experiment changes a row.
 
     Returns:
         Scores with arrays [P, T].
@@ -45,7 +52,7 @@ def run_trials(
         raise ValueError(f"asked for {threads} threads; there must be at least 1")
     genes = check_genotypes(genotypes)
     networks, arrays = decode_flat(genes, readings), _arrays_of(trials)
-    world, tables = world_of(readings), tables_of(readings)
+    world, tables = world_of(readings), tables_of(readings)._replace(codes=word_codes)
     outcomes = _empty_outcomes(len(genes), len(trials))
 
     def run(part: slice) -> None:
