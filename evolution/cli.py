@@ -15,6 +15,7 @@ from tyro.conf import subcommand
 
 from arm2d import Readings
 from evolution.commands.analyse import Analyse
+from evolution.commands.behaviour import BehaviourCommand
 from evolution.commands.evaluate import Evaluate
 from evolution.commands.evolve import Evolve, UncheckedReadings
 from evolution.commands.lineage import LineageCommand
@@ -29,7 +30,18 @@ BAD_INPUT: Final = 2
 INTERRUPTED: Final = 130
 BROKEN_PIPE: Final = 141
 
-Command = Evolve | Evaluate | LineageCommand | Plot | Port | PostEvaluate | Repair | Ship | Analyse
+Command = (
+    Evolve
+    | Evaluate
+    | BehaviourCommand
+    | LineageCommand
+    | Plot
+    | Port
+    | PostEvaluate
+    | Repair
+    | Ship
+    | Analyse
+)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -64,6 +76,7 @@ def _parse(arguments: Sequence[str], evolve: Evolve) -> Command:
     """Parse, with the defaults of `wordarm evolve` as given."""
     commands = (
         Annotated[Evolve, subcommand("evolve", default=evolve)]
+        | Annotated[BehaviourCommand, subcommand("behaviour")]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[LineageCommand, subcommand("lineage")]
         | Annotated[Plot, subcommand("plot")]

@@ -1,0 +1,168 @@
+"""What an agent does: trajectories of the nine instructions, and what lesions leave of them."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
+
+from arm2d import NON_EXPERIENCED, Instruction, ObjectWord, Readings
+from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, DT
+from arm2d.drawing import INK, OBJECT_COLOURS
+from evolution.behaviour import NEVER, Behaviour
+from evolution.figures import FAINT, STYLE, SUCCESS_MAP
+from evolution.lesions import LESIONS, LesionScores
+
+FAILED: Final = "#A8A49B"
+DASHES: Final = (0, (4, 2.5))
+SHOWN_PER_AREA: Final = 10
+
+
+def trajectories_figure(behaviour: Behaviour, readings: Readings, origin: str) -> Figure:
+    """A page with both joint angles over time, a panel for each instruction."""
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.2, 9.4))
+        head(figure, "What the arm does", origin)
+        grid = figure.add_gridspec(
+            3, 3, left=0.085, right=0.985, top=0.885, bottom=0.085, hspace=0.24, wspace=0.08
+        )
+        end = DT * behaviour.steps.max()
+        for place, instruction in enumerate(behaviour.condition.instructions):
+            cell = grid[place // 3, place % 3].subgridspec(2, 1, height_ratios=(2.6, 1), hspace=0.07)
+            above, below = figure.add_subplot(cell[0]), figure.add_subplot(cell[1])
+            draw_alpha(above, behaviour, instruction, readings)
+            draw_beta(below, behaviour, instruction)
+            for axes in (above, below):
+                axes.set_xlim(0, end)
+                if place % 3:
+                    axes.set_yticklabels([])
+            if place % 3 == 0:
+                above.set_ylabel("alpha [°]")
+                below.set_ylabel("beta [°]")
+            below.set_xlabel("time [s]" if place > 5 else "")
+        figure.legend(handles=_trajectory_handles(), loc="lower center", frameon=False, ncols=5, fontsize=8.5)
+    return figure
+
+
+def draw_alpha(axes: Axes, behaviour: Behaviour, instruction: Instruction, readings: Readings) -> None:
+    """S1's angle over time in the trials of an instruction; the objects' sectors lie behind it."""
+    for object_, centre in zip(ObjectWord, readings.sector_centres, strict=True):
+        low, high = centre - readings.sector_half_width, centre + readings.sector_half_width
+        axes.axhspan(low, high, color=OBJECT_COLOURS[object_], alpha=0.13, lw=0)
+    _draw_lines(axes, behaviour, instruction, behaviour.alpha)
+    axes.set(ylim=(ALPHA_MIN, ALPHA_MAX), yticks=[30, 90, 150, 210], xticklabels=[])
+    colour = OBJECT_COLOURS[instruction.object]
+    rate = f"{100 * behaviour.success[behaviour.of(instruction)].mean():.0f} %"
+    never_met = ", never met" if instruction in NON_EXPERIENCED else ""
+    axes.set_title(f"{instruction}", loc="left", fontsize=10, fontweight="bold", color=colour, pad=4)
+    axes.set_title(f"{rate}{never_met}", loc="right", fontsize=9, color=INK, pad=4)
+    _frame(axes, instruction)
+
+
+def draw_beta(axes: Axes, behaviour: Behaviour, instruction: Instruction) -> None:
+    """S2's angle over time in the trials of an instruction; 90 is bent, 0 straight."""
+    _draw_lines(axes, behaviour, instruction, behaviour.beta)
+    axes.set(ylim=(-6, BETA_MAX + 6), yticks=[0, 90])
+    _frame(axes, instruction)
+
+
+def _draw_lines(
+    axes: Axes, behaviour: Behaviour, instruction: Instruction, angles: NDArray[np.float64]
+) -> None:
+    """A line for each trial, with first sight and first touch marked."""
+    trials = behaviour.of(instruction)
+    for area in (0, 1):
+        for trial in trials[behaviour.areas[trials] == area][:SHOWN_PER_AREA]:
+            good = behaviour.success[trial]
+            colour = OBJECT_COLOURS[instruction.object] if good else FAILED
+            style = "-" if area == 0 else (0, (3, 1.2))
+            axes.plot(
+                DT * np.arange(angles.shape[1]), angles[trial], color=colour, ls=style, lw=0.9, alpha=0.8
+            )
+            for row, marker, face in (
+                (behaviour.first_sight[trial], "o", "white"), (behaviour.first_touch[trial], "D", INK),
+            ):  # fmt: skip
+                if row != NEVER:
+                    axes.plot(
+                        DT * row, angles[trial, row], marker, ms=2.8, mfc=face, mec=INK, mew=0.5, zorder=4
+                    )
+
+
+def _trajectory_handles() -> list[Line2D]:
+    """What lines and markers mean."""
+    return [
+        Line2D([], [], color=INK, lw=1.2, label="from the right"),
+        Line2D([], [], color=INK, lw=1.2, ls=(0, (3, 1.2)), label="from the left"),
+        Line2D([], [], color=FAILED, lw=1.2, label="not carried out"),
+        Line2D([], [], ls="", marker="o", ms=4, mfc="white", mec=INK, label="first sight of the target"),
+        Line2D([], [], ls="", marker="D", ms=4, color=INK, label="first touch of the target"),
+    ]
+
+
+def lesions_figure(scores: LesionScores, origin: str) -> Figure:
+    """A page with success without and with each lesion, a row for each instruction; a mean over agents."""
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.2, 5.3))
+        head(figure, "Which word is needed, and when", origin)
+        axes = figure.add_axes((0.155, 0.095, 0.83, 0.63))
+        draw_lesions(axes, scores)
+        note = f"Success in {2 * scores.per_area} trials, the same in every column. "
+        note += "Exchanged: a mean over both other words. Dashed: never met during evolution."
+        figure.text(0.155, 0.03, note, fontsize=8, color=FAINT)
+    return figure
+
+
+def draw_lesions(axes: Axes, scores: LesionScores) -> None:
+    """Instructions by lesions: success in per cent, a mean over agents."""
+    table = np.vstack([scores.intact.mean(axis=0), scores.lesioned.mean(axis=0)]).T  # [9, 1 + lesions]
+    # Room between the intact agent, the lesions it should not mind, and those it should.
+    places = np.array([0.0, *(1.3 + i + 0.3 * (not each.harmless) for i, each in enumerate(LESIONS))])
+    for row, instruction in enumerate(scores.condition.instructions):
+        for place, share in zip(places, table[row], strict=True):
+            axes.add_patch(
+                Rectangle((place + 0.02, row + 0.04), 0.96, 0.92, fc=SUCCESS_MAP(share), ec="none")
+            )
+            axes.text(
+                place + 0.5, row + 0.52, f"{100 * share:.0f}", ha="center", va="center", fontsize=9,
+                color="white" if share > 0.55 else INK,
+            )  # fmt: skip
+        if instruction in NON_EXPERIENCED:
+            frame = (places[-1] + 1.08, 1.04)
+            axes.add_patch(
+                Rectangle((-0.04, row - 0.02), *frame, fill=False, ec=FAINT, ls=DASHES, lw=1.2, clip_on=False)
+            )
+    axes.set(xlim=(0, places[-1] + 1), ylim=(9, 0))
+    axes.set_yticks(np.arange(9) + 0.5, [str(each) for each in scores.condition.instructions])
+    for label, instruction in zip(axes.get_yticklabels(), scores.condition.instructions, strict=True):
+        label.set(color=OBJECT_COLOURS[instruction.object], fontweight="bold")
+    names = ["intact", *(f"{each.word} word\n{each.manner}\n{each.time}" for each in LESIONS)]
+    axes.set_xticks(places + 0.5, names, fontsize=8)
+    axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False)
+    axes.spines[:].set_visible(False)
+    for start, text in ((1, "the paper's agent would not mind"), (5, "the paper's agent would fail")):
+        middle = (places[start] + places[start + 3] + 1) / 2
+        axes.annotate(
+            text, (middle, 0), xytext=(0, 48), textcoords="offset points", ha="center", fontsize=9,
+            fontweight="bold", annotation_clip=False,
+        )  # fmt: skip
+
+
+def head(figure: Figure, title: str, origin: str) -> None:
+    """Title and provenance at the top of a page, at the same distance from its edge on every page."""
+    height = figure.get_size_inches()[1]
+    figure.text(0.015, 1 - 0.32 / height, title, fontsize=15, fontweight="bold")
+    figure.text(0.015, 1 - 0.54 / height, origin, fontsize=9, color=FAINT)
+
+
+def _frame(axes: Axes, instruction: Instruction) -> None:
+    """Plain axes, or a dashed frame round what was never met."""
+    axes.tick_params(labelsize=8, color=FAINT, length=2.5)
+    axes.spines[["top", "right"]].set_visible(False)
+    if instruction in NON_EXPERIENCED:
+        axes.spines[:].set(visible=True, linestyle=DASHES, color=OBJECT_COLOURS[instruction.object])

@@ -1,0 +1,109 @@
+"""The network's state space: three outputs, seen from where they spread most."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from arm2d import ObjectWord
+from arm2d.constants import N_INTER
+from arm2d.drawing import INK, OBJECT_COLOURS
+from evolution.behaviour import NEVER, Behaviour
+from evolution.figures import FAINT, STYLE
+from evolution.figures_behaviour import head
+from evolution.figures_neurons import object_handles
+
+SHOWN_PER_AREA: Final = 3
+
+
+def state_space_figure(behaviour: Behaviour, origin: str) -> Figure:
+    """A page with the paths of the three outputs in the plane that shows most of them, by action word."""
+    mean, plane, shares = principal_plane(behaviour.activity)
+    actions = [each.action.name for each in behaviour.condition.instructions[::3]]
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.2, 4.3))
+        head(figure, "The paths through the network's states", origin)
+        panels = figure.subplots(1, 3, sharex=True, sharey=True)
+        figure.subplots_adjust(left=0.075, right=0.985, top=0.785, bottom=0.235, wspace=0.05)
+        for action, axes in enumerate(panels):
+            draw_paths(axes, behaviour, (behaviour.activity - mean) @ plane, action)
+            draw_cube(axes, mean, plane)
+            axes.set_title(actions[action], loc="left", fontsize=10, fontweight="bold")
+            axes.set_xlabel(f"first component, {100 * shares[0]:.0f} % of variance")
+        panels[0].set_ylabel(f"second component, {100 * shares[1]:.0f} %")
+        handles = object_handles() + _path_handles()
+        figure.legend(handles=handles, loc="lower center", frameon=False, ncols=7, fontsize=9)
+    return figure
+
+
+def principal_plane(
+    activity: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Mean [3], plane [3, 2] of most variance, and its shares of variance [2], over all trials and steps."""
+    points = activity[np.isfinite(activity).all(axis=-1)]
+    mean = points.mean(axis=0)
+    _, sizes, axes = np.linalg.svd(points - mean, full_matrices=False)
+    # The sign of an axis is arbitrary; its largest weight shall be positive.
+    signs = np.sign(axes[np.arange(N_INTER), np.abs(axes).argmax(axis=1)])
+    shares = np.square(sizes) / max(float(np.square(sizes).sum()), np.finfo(np.float64).tiny)
+    return mean, (axes * signs[:, np.newaxis])[:2].T, shares[:2]
+
+
+def draw_paths(axes: Axes, behaviour: Behaviour, points: NDArray[np.float64], action: int) -> None:
+    """Paths [T, 251, 2] of some trials of an action word in the objects' colours."""
+    for trial in np.flatnonzero(behaviour.actions == action):
+        own = np.flatnonzero(
+            (behaviour.instructions == behaviour.instructions[trial])
+            & (behaviour.areas == behaviour.areas[trial])
+        )
+        if trial not in own[:SHOWN_PER_AREA]:
+            continue
+        colour, path = OBJECT_COLOURS[ObjectWord(behaviour.objects[trial])], points[trial]
+        axes.plot(*path.T, color=colour, lw=0.9, alpha=0.8)
+        events = (
+            (0, "s", INK), (behaviour.first_sight[trial], "o", "white"),
+            (behaviour.first_touch[trial], "D", colour), (behaviour.steps[trial], "X", colour),
+        )  # fmt: skip
+        for row, marker, face in events:
+            if row != NEVER:
+                axes.plot(*path[row], marker, ms=5, mfc=face, mec=INK, mew=0.6, zorder=4)
+    axes.set_aspect("equal", adjustable="box")
+    axes.tick_params(labelsize=8, color=FAINT, length=2.5)
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def draw_cube(axes: Axes, mean: NDArray[np.float64], plane: NDArray[np.float64]) -> None:
+    """The edges of the cube in which the outputs lie, with each neuron's axis named."""
+    corners = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, -1).T
+    for a in corners:
+        for b in corners:
+            if (b - a).sum() == 1 and np.abs(b - a).sum() == 1:
+                axes.plot(*((np.array([a, b]) - mean) @ plane).T, color="#DAD7CF", lw=0.7, zorder=0)
+    origin = -mean @ plane
+    for neuron in range(N_INTER):
+        tip = (np.eye(N_INTER)[neuron] - mean) @ plane
+        way = (tip - origin) / max(float(np.linalg.norm(tip - origin)), 1e-9)
+        axes.annotate(
+            f"neuron {neuron + 1}", tip, xytext=9 * way, textcoords="offset points", fontsize=7.5,
+            color=FAINT, ha="center", va="center", zorder=5,
+        )  # fmt: skip
+
+
+def _path_handles() -> list[Line2D]:
+    """What the markers on a path mean."""
+    marks = (
+        ("s", INK, "start"),
+        ("o", "white", "first sight"),
+        ("D", FAINT, "first touch"),
+        ("X", FAINT, "end"),
+    )
+    return [
+        Line2D([], [], ls="", marker=marker, ms=5, mfc=face, mec=INK, label=label)
+        for marker, face, label in marks
+    ]
