@@ -135,7 +135,16 @@ def draw_lesions(axes: Axes, scores: LesionScores) -> None:
         if instruction in NON_EXPERIENCED:
             frame = (places[-1] + 1.08, 1.04)
             axes.add_patch(
-                Rectangle((-0.04, row - 0.02), *frame, fill=False, ec=FAINT, ls=DASHES, lw=1.2, clip_on=False)
+                Rectangle(
+                    (-0.04, row - 0.02),
+                    *frame,
+                    fill=False,
+                    ec=FAINT,
+                    ls=DASHES,
+                    lw=1.2,
+                    zorder=3,
+                    clip_on=False,
+                )
             )
     axes.set(xlim=(0, places[-1] + 1), ylim=(9, 0))
     axes.set_yticks(np.arange(9) + 0.5, [str(each) for each in scores.condition.instructions])
@@ -143,7 +152,7 @@ def draw_lesions(axes: Axes, scores: LesionScores) -> None:
         label.set(color=OBJECT_COLOURS[instruction.object], fontweight="bold")
     names = ["intact", *(f"{each.word} word\n{each.manner}\n{each.time}" for each in LESIONS)]
     axes.set_xticks(places + 0.5, names, fontsize=8)
-    axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False)
+    axes.tick_params(length=0, pad=6, top=False, labeltop=True, labelbottom=False)
     axes.spines[:].set_visible(False)
     for start, text in ((1, "the paper's agent would not mind"), (5, "the paper's agent would fail")):
         middle = (places[start] + places[start + 3] + 1) / 2
