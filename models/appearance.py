@@ -74,27 +74,34 @@ class Appearance:
         object.__setattr__(self, "materials", MappingProxyType(dict(self.materials)))
 
 
+EYE_RADIUS = 0.024  # [m]
+# What lies on the eyeball: material, radius, and where its flat front is along the gaze, from the centre [m].
+EYE_DISCS = (("iris", 0.0108, 0.0242), ("pupil", 0.0064, 0.0245))
+
+
 def eye(
     link: str, centre: tuple[float, float, float], gaze: tuple[float, float, float]
 ) -> tuple[Ornament, ...]:
-    """Make an eye of nested spheres, each showing the cap that stands out of the one before.
+    """Make an eyeball with iris and pupil, flat discs in front of it like a cornea.
 
     Args:
         link: The head.
         centre: [3] in [m], centre of the eyeball.
         gaze: [3], unit vector the eye looks along.
     """
-    spheres = (("eye", 0.024, 0.0), ("iris", 0.0183, 0.0064), ("pupil", 0.0112, 0.0141))  # radius, offset [m]
-    return tuple(
-        Ornament(
-            link,
-            "sphere",
-            (radius,),
-            (centre[0] + offset * gaze[0], centre[1] + offset * gaze[1], centre[2] + offset * gaze[2]),
-            material,
+
+    def ahead(distance: float) -> tuple[float, float, float]:
+        return (
+            centre[0] + distance * gaze[0],
+            centre[1] + distance * gaze[1],
+            centre[2] + distance * gaze[2],
         )
-        for material, radius, offset in spheres
+
+    discs = (
+        Ornament(link, "cylinder", (radius,), centre, material, to=ahead(front))
+        for material, radius, front in EYE_DISCS
     )
+    return (Ornament(link, "sphere", (EYE_RADIUS,), centre, "eye"), *discs)
 
 
 def line(

@@ -19,8 +19,8 @@ VISUAL_GROUP = 1
 SHELL_INERTIA = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # shown meshes need not be closed
 UNCOLOURED = [0.5, 0.5, 0.5, 1.0]  # the one colour that lets a material's own through
 # Triangles of one mesh, and the cells [m] tried one after the other to get there: chosen by eye.
-MAX_FACES = 4000
-CELLS = (0.002, 0.003, 0.004, 0.005, 0.006)
+MAX_FACES = 4500
+CELLS = (0.002, 0.003, 0.004, 0.005)
 
 SHAPES = {
     "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,

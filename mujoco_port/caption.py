@@ -14,6 +14,7 @@ from arm2d.video import DPI
 from models.robots import Robot
 
 FAINT = "#6B6B6B"
+VIEWS = "the robot from the front, its planar world from above:\nwhat is left here is on the robot's left"
 
 
 def heading(record: TrialRecord, robot: Robot, width_px: int, height_px: int) -> NDArray[np.uint8]:
@@ -30,6 +31,7 @@ def heading(record: TrialRecord, robot: Robot, width_px: int, height_px: int) ->
 def verdict(record: TrialRecord, ended: bool, width_px: int, height_px: int) -> NDArray[np.uint8]:
     """Whether the instruction was carried out, once the trial has ended; [height, width, 3]."""
     figure = _blank(width_px, height_px)
+    figure.text(0.5, 0.12, VIEWS, ha="center", va="bottom", fontsize=8.5, color=FAINT)
     if ended:
         text = "carried out" if record.success else "not carried out"
         figure.text(

@@ -15,7 +15,7 @@ from mujoco_port.kinematics import ArmKinematics
 from mujoco_port.workspace import hand_headings, hand_targets, on_table
 
 # Postures between two control steps: the arm of the 2D world is interpolated, and solved for anew.
-FRAMES_PER_STEP: Final = 2
+FRAMES_PER_STEP: Final = 2.5  # 25 in a second
 
 
 @dataclass(frozen=True)
@@ -40,22 +40,29 @@ class Rollout:
         return self.steps * DT
 
 
-def roll_out(record: TrialRecord, robot: Robot, frames_per_step: int = FRAMES_PER_STEP) -> Rollout:
+def roll_out(record: TrialRecord, robot: Robot, frames_per_step: float = FRAMES_PER_STEP) -> Rollout:
     """Let a robot follow a recorded trial.
 
     Args:
         record: K steps.
         robot: Its record.
-        frames_per_step: Moments for each control step; 1 gives the record's own K + 1 states.
+        frames_per_step: Moments for each control step; 1 gives the record's own K + 1 states. The last
+            moment is the end of the trial in any case.
 
     Raises:
         OutOfReachError: If the robot cannot reach a place.
     """
-    steps = np.arange(record.steps * frames_per_step + 1) / frames_per_step
+    steps = moments(record.steps, frames_per_step)
     alpha, beta = _at(record.alpha, steps), _at(record.beta, steps)
     targets = hand_targets(robot.plane, alpha, beta)
     angles = ArmKinematics(robot).follow(targets, hand_headings(robot.plane, alpha, beta))
     return Rollout(steps, angles, targets, on_table(robot.plane, _at(record.discs, steps)))
+
+
+def moments(n_steps: int, frames_per_step: float) -> NDArray[np.float64]:
+    """The moments [F] in control steps from the start to the end of a trial of `n_steps`."""
+    n_frames = int(np.ceil(n_steps * frames_per_step)) + 1
+    return np.minimum(np.arange(n_frames) / frames_per_step, n_steps)
 
 
 def _at(states: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -15,7 +15,7 @@ from arm2d.constants import DT
 from arm2d.video import Panel, write_mp4
 from models.robots import Robot
 from mujoco_port.caption import heading, verdict
-from mujoco_port.rollout import FRAMES_PER_STEP, roll_out
+from mujoco_port.rollout import FRAMES_PER_STEP, moments, roll_out
 from mujoco_port.stage import Stage
 
 HEIGHT_PX: Final = 720
@@ -23,6 +23,7 @@ ROBOT_WIDTH_PX: Final = 800
 PANEL_WIDTH_PX: Final = 480
 PANEL_HEIGHT_PX: Final = 400
 CAPTION_HEIGHT_PX: Final = (HEIGHT_PX - PANEL_HEIGHT_PX) // 2
+VISIBLE: Final = 2e-4  # [rad] and [m]; a smaller change is a fifth of a pixel and is not drawn anew
 HOLD_S: Final = 1.0  # the last frame stays for so long
 
 
@@ -33,7 +34,7 @@ def write_video(record: TrialRecord, robot: Robot, path: Path) -> None:
         OutOfReachError: If the robot cannot follow.
         OSError: If the file cannot be written.
     """
-    total = record.steps * FRAMES_PER_STEP + 1 + round(HOLD_S / DT * FRAMES_PER_STEP)
+    total = len(moments(record.steps, FRAMES_PER_STEP)) + round(HOLD_S / DT * FRAMES_PER_STEP)
     shown = track(held(frames(record, robot)), f"{record.instruction} on {robot.name}", total=total)
     write_mp4(shown, path, round(FRAMES_PER_STEP / DT))
 
@@ -67,9 +68,13 @@ def frames(record: TrialRecord, robot: Robot) -> Iterator[NDArray[np.uint8]]:
     """All moments of a trial, [720, 1280, 3] each: the robot on the left, the 2D world on the right."""
     rollout, side = roll_out(record, robot), Side(record, robot)
     with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX) as stage:
+        picture, drawn = np.empty(0, np.uint8), np.empty(0)
         for step, angles, objects in zip(rollout.steps, rollout.angles, rollout.objects, strict=True):
-            stage.pose(angles, objects)
-            yield np.concatenate([stage.picture(), side.frame(step)], axis=1)
+            pose = np.concatenate([angles, objects.ravel()])
+            if drawn.size == 0 or np.abs(pose - drawn).max() > VISIBLE:
+                stage.pose(angles, objects)
+                picture, drawn = stage.picture(), pose
+            yield np.concatenate([picture, side.frame(step)], axis=1)
 
 
 def frame_at(record: TrialRecord, robot: Robot, step: int) -> NDArray[np.uint8]:

@@ -11,7 +11,7 @@ import pytest
 from arm2d.drawing import OBJECT_COLOURS
 from models.robots import UnknownRobotError
 from mujoco_port.port import port_picture, port_trial
-from mujoco_port.rollout import FRAMES_PER_STEP, roll_out
+from mujoco_port.rollout import FRAMES_PER_STEP, moments, roll_out
 from mujoco_port.workspace import on_table, tip_in_plane
 
 
@@ -28,10 +28,15 @@ def test_hand_target_is_the_end_of_s2_laid_on_the_table(robot, shortest):
 
 
 def test_whole_steps_of_a_rollout_are_the_states_of_the_record(robot, shortest):
-    rollout = roll_out(shortest, robot)
+    rollout = roll_out(shortest, robot, frames_per_step=2)
     whole = rollout.steps % 1 == 0
     assert whole.sum() == shortest.steps + 1
     np.testing.assert_array_equal(rollout.objects[whole], on_table(robot.plane, shortest.discs))
+
+
+def test_last_moment_of_a_rollout_is_the_end_of_the_trial():
+    np.testing.assert_allclose(moments(3, 2.5), [0, 0.4, 0.8, 1.2, 1.6, 2.0, 2.4, 2.8, 3.0])
+    np.testing.assert_array_equal(moments(3, 1), [0, 1, 2, 3])
 
 
 def test_touched_disc_meets_the_palms_edge(robot, champion_records):
