@@ -1,0 +1,78 @@
+import numpy as np
+import pytest
+
+from arm2d import ActionWord, Condition, Instruction, ObjectWord, Readings, reference, run_trials
+from evolution.behaviour import draw_behaviour_trials, record_behaviour
+from evolution.figures_behaviour import lesions_figure
+from evolution.lesions import LESIONS, Lesion, lesion_scores, lesioned_trials
+
+INDICATE = Condition.WITH_INDICATE
+READINGS = Readings()
+
+
+@pytest.mark.parametrize("condition", Condition)
+@pytest.mark.parametrize("lesion", LESIONS, ids=lambda each: f"{each.word}-{each.manner}-{each.time}")
+def test_lesions_are_those_of_the_plain_reference(lesion, condition, evolved, monkeypatch):
+    genotype = evolved[7]
+    trials = draw_behaviour_trials(condition, READINGS, 1, 5)
+    for target in ObjectWord:
+        own = trials[np.flatnonzero(trials.objects == target)]
+        for heard, codes in lesioned_trials(own, target, lesion, condition):
+            with monkeypatch.context() as patch:
+                for row, word in enumerate([*ObjectWord, *ActionWord]):
+                    table = reference.OBJECT_CODES if row < 3 else reference.ACTION_CODES
+                    patch.setitem(table, word, tuple(codes[row].tolist()))
+                compare_with_reference(genotype, heard, codes)
+
+
+def compare_with_reference(genotype, heard, codes):
+    scores, changes = run_trials(genotype, heard, READINGS, word_codes=codes), heard.changes
+    for i, instruction in enumerate(heard.instructions):
+        first = Instruction(ActionWord(changes.first_actions[i]), ObjectWord(changes.first_objects[i]))
+        later = Instruction(ActionWord(changes.later_actions[i]), ObjectWord(changes.later_objects[i]))
+        expected = reference.run_trial(
+            genotype, instruction, heard.alpha[i], heard.discs[i], READINGS, (first, later, 0)
+        )
+        assert scores.steps[0, i] == expected.steps
+        assert scores.success[0, i] == expected.success
+        assert scores.fitness[0, i] == pytest.approx(expected.f1 + expected.f2 + expected.f3, abs=1e-9)
+
+
+def test_exactly_the_lesioned_word_is_replaced_at_its_time():
+    trials = draw_behaviour_trials(INDICATE, READINGS, 1, 0)
+    own = trials[np.flatnonzero(trials.objects == ObjectWord.GREEN)]
+    ((silent, codes),) = lesioned_trials(
+        own, ObjectWord.GREEN, Lesion("action", "before sight", "silenced"), INDICATE
+    )
+    changes = silent.changes
+    assert codes[3 + changes.first_actions].tolist() == [[0, 0, 0]] * len(own)
+    assert np.array_equal(changes.later_actions, own.actions)
+    assert np.array_equal(changes.first_objects, own.objects)
+    for heard, _ in lesioned_trials(
+        own, ObjectWord.GREEN, Lesion("object", "after sight", "exchanged"), INDICATE
+    ):
+        assert np.array_equal(heard.changes.first_objects, own.objects)
+        assert not np.any(heard.changes.later_objects == own.objects)
+        assert np.array_equal(heard.changes.later_actions, own.actions)
+
+
+def test_intact_agents_score_as_in_the_trials_that_are_watched(evolved_agent):
+    behaviour = record_behaviour(evolved_agent, INDICATE, READINGS, per_area=5)
+    scores = lesion_scores([evolved_agent, np.full(84, 0.5)], INDICATE, READINGS, per_area=5)
+    assert scores.lesioned.shape == (2, 8, 9)
+    assert np.array_equal(scores.intact[0], behaviour.success.reshape(9, -1).mean(axis=1))
+
+
+def test_an_agent_deaf_to_words_does_not_mind_lesions(evolved_agent):
+    deaf = evolved_agent.copy()
+    deaf[36:54] = 0.5  # weights of I13 to I18 become 0
+    scores = lesion_scores(deaf, INDICATE, READINGS, per_area=2)
+    assert np.array_equal(scores.lesioned[0], np.repeat(scores.intact, 8, axis=0))
+
+
+def test_lesions_figure_shows_the_mean_over_agents(evolved):
+    scores = lesion_scores(evolved[:2], INDICATE, READINGS, per_area=1)
+    figure = lesions_figure(scores, "two agents")
+    shown = [text.get_text() for text in figure.axes[0].texts][:9]
+    expected = np.concatenate([scores.intact.mean(axis=0)[:1], scores.lesioned.mean(axis=0)[:, 0]])
+    assert shown == [f"{100 * each:.0f}" for each in expected]
