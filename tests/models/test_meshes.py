@@ -51,5 +51,5 @@ def test_first_cell_that_suffices_is_taken():
 def test_stl_that_is_cut_short_is_refused(tmp_path):
     path = tmp_path / "cut.stl"
     path.write_bytes(bytes(80) + (7).to_bytes(4, "little") + bytes(50))
-    with pytest.raises(ValueError, match="cut.stl is not a whole binary STL file; install its package again"):
+    with pytest.raises(ValueError, match=r"cut\.stl is not a whole binary STL file; install its"):
         read_mesh(path)

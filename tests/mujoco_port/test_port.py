@@ -110,6 +110,11 @@ def test_a_chosen_back_end_that_cannot_draw_is_named():
     assert "MUJOCO_GL=glfw cannot draw without a screen here; unset MUJOCO_GL" in line
 
 
+def test_egl_without_a_driver_gives_way_or_says_what_to_install():
+    code, line = run_gl(CHOOSE, __EGL_VENDOR_LIBRARY_DIRS="/nowhere", __EGL_VENDOR_LIBRARY_FILENAMES="")
+    assert (code, line) == (0, "osmesa") or "run: apt-get install libegl1" in line
+
+
 def test_no_back_end_at_all_says_what_to_install():
     broken = "import mujoco_port.gl as gl; gl.works = lambda name: False; gl.choose_back_end()"
     code, line = run_gl(broken)
