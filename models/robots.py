@@ -46,7 +46,8 @@ class Posture:
         weights: [J], cost of the squared distance to `rest` per joint [1/rad^2].
         heading_weight: cost of the squared error of the hand's heading [1/rad^2].
         level_weight: cost of the squared tilt of the palm against the table.
-        inertia: cost of the squared change per step [1/rad^2]; below 0.3 the arm oscillates.
+        inertia: cost of the squared change per step [1/rad^2]; below 0.3 the arm oscillates, and the more
+            there is, the smaller are its jumps.
     """
 
     rest: tuple[float, ...]
@@ -132,7 +133,7 @@ ICUB = Robot(
         weights=(0.419, 0.522, 0.262, 0.0110, 0.0775, 0.0182, 0.142, 0.0305, 0.233, 0.217),
         heading_weight=0.195,
         level_weight=0.455,
-        inertia=0.3,
+        inertia=0.7,
     ),
     # Nothing of the legs is seen at the table, and they are half of the triangles to be drawn.
     left_out=("l_hip_1", "r_hip_1"),
