@@ -23,7 +23,10 @@ from evolution.commands.plot import Plot
 from evolution.commands.port import Port
 from evolution.commands.postevaluate import PostEvaluate
 from evolution.commands.repair import Repair
+from evolution.commands.report import Report
+from evolution.commands.reproduce import Reproduce
 from evolution.commands.ship import Ship
+from evolution.commands.status import Status
 
 DESCRIPTION: Final = "An arm that obeys two-word instructions: evolve its controllers, test them, show them."
 BAD_INPUT: Final = 2
@@ -39,7 +42,10 @@ Command = (
     | Port
     | PostEvaluate
     | Repair
+    | Report
+    | Reproduce
     | Ship
+    | Status
     | Analyse
 )
 
@@ -64,18 +70,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def parse(arguments: Sequence[str]) -> Command:
     """The command that the arguments ask for; the option parser exits with code 2 where it finds none."""
-    command = _parse(arguments, Evolve())
-    if isinstance(command, Evolve) and command.preset != "default":
+    command = _parse(arguments, UncheckedReadings())
+    if isinstance(command, Evolve | Reproduce) and command.preset != "default":
         # Now that the preset is known, its readings become the defaults of those that were not set.
-        start = UncheckedReadings(**vars(Readings.preset(command.preset)))
-        command = _parse(arguments, Evolve(readings=start))
+        command = _parse(arguments, UncheckedReadings(**vars(Readings.preset(command.preset))))
     return command
 
 
-def _parse(arguments: Sequence[str], evolve: Evolve) -> Command:
-    """Parse, with the defaults of `wordarm evolve` as given."""
+def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
+    """Parse, with the default readings as given."""
     commands = (
-        Annotated[Evolve, subcommand("evolve", default=evolve)]
+        Annotated[Evolve, subcommand("evolve", default=Evolve(readings=readings))]
         | Annotated[BehaviourCommand, subcommand("behaviour")]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[LineageCommand, subcommand("lineage")]
@@ -83,7 +88,10 @@ def _parse(arguments: Sequence[str], evolve: Evolve) -> Command:
         | Annotated[Port, subcommand("port")]
         | Annotated[PostEvaluate, subcommand("postevaluate")]
         | Annotated[Repair, subcommand("repair")]
+        | Annotated[Report, subcommand("report")]
+        | Annotated[Reproduce, subcommand("reproduce", default=Reproduce(readings=readings))]
         | Annotated[Ship, subcommand("ship")]
+        | Annotated[Status, subcommand("status")]
         | Annotated[Analyse, subcommand("analyse")]
     )
     return tyro.cli(commands, prog="wordarm", description=DESCRIPTION, args=arguments)  # pyright: ignore

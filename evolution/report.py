@@ -1,0 +1,199 @@
+"""The page that shows an experiment: one HTML file that needs nothing else, not even a network.
+
+All numbers come from `evolution.analysis`; here they become text, tables and pictures, and a template
+(report_template.html) arranges them. The same experiment gives the same page.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any, Final
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+from matplotlib.colors import to_hex
+
+from arm2d import NON_EXPERIENCED, Readings
+from arm2d.drawing import OBJECT_COLOURS
+from evolution import meta
+from evolution.analysis import Agent, ConditionResults, Results
+from evolution.figures import SUCCESS_MAP
+from evolution.figures_paper import all_figures
+from evolution.folder import META
+from evolution.postevaluation import TRIALS
+from evolution.recordings_for_web import recordings_of
+from evolution.report_figures import figure_uri, file_uri
+from evolution.report_sentences import result_sentences, standing_of_best
+from evolution.report_tables import (
+    TITLES,
+    category_lines,
+    comparison_rows,
+    departures_in_size,
+    main_lines,
+    run_rows,
+)
+from evolution.stage_times import stage_times
+from evolution.standing import standing_of
+from evolution.storage import make_folder, write_atomically
+from evolution.subtasks import SUBTASKS, AgentClass
+
+TEMPLATE: Final = "report_template.html"
+# Where `wordarm lineage` and `wordarm behaviour` put what they draw, and what it shows.
+FIGURE_FOLDERS: Final = {"lineage": "Its line of ancestors", "behaviour": "How it does it"}
+
+
+def write_report(results: Results, path: Path) -> Path:
+    """Write the page.
+
+    Args:
+        results: The analysed experiment.
+        path: The file.
+
+    Returns:
+        The same path.
+
+    Raises:
+        ValueError: If a file of a shown run is damaged.
+        OSError: If it cannot be written.
+    """
+    make_folder(path.parent)
+    write_atomically(path, render(results, path.parent).encode())
+    return path
+
+
+def render(results: Results, home: Path) -> str:
+    """The page's text; links to films are relative to the folder `home`."""
+    environment = Environment(
+        loader=FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template(TEMPLATE).render(_content(results, home))
+
+
+def _content(results: Results, home: Path) -> dict[str, Any]:
+    """Everything the template shows."""
+    shown = replace(results, conditions={c: e for c, e in results.conditions.items() if len(e.runs)})
+    best = [(each, each.best_agent()) for each in shown.conditions.values()]
+    agents = [_agent(each, agent, home) for each, agent in best if agent is not None]
+    figures = all_figures(shown) if shown.conditions else {}
+    experiment = results.experiment
+    return {
+        "name": experiment.path.resolve().name,
+        "sentences": result_sentences(results),
+        "missing": results.missing,
+        "sizes": departures_in_size(results),
+        "titles": [TITLES[each] for each in shown.conditions],
+        "main_lines": main_lines(shown),
+        "category_lines": category_lines(shown),
+        "run_rows": run_rows(shown),
+        "comparison_rows": comparison_rows(results),
+        "standings": [standing_of(run.path, run.config) for run in experiment.all_runs],
+        "subtasks": SUBTASKS,
+        "classes": [str(each) for each in AgentClass],
+        "figures": {name: figure_uri(figure) for name, figure in figures.items()},
+        "agents": agents,
+        "recordings": _embedded([each["recordings"] for each in agents]),
+        "trials": TRIALS,
+        "films": list(_films(experiment.path, home)),
+        "settings": _settings(results),
+        "readings": _readings(experiment.readings),
+        "versions": _versions(results),
+        "times": stage_times(experiment.path),
+    }
+
+
+def _agent(each: ConditionResults, agent: Agent, home: Path) -> dict[str, Any]:
+    """The best agent of a condition: its heat map, its recordings, and figures that lie beside its run."""
+    instructions = each.condition.instructions
+    cells = [
+        _cell(str(instruction), instruction in NON_EXPERIENCED, int(agent.successes[index]))
+        for index, instruction in enumerate(instructions)
+    ]
+    return {
+        "condition": TITLES[each.condition],
+        "what": standing_of_best(each),
+        "seed": agent.run.config.seed,
+        "generation": agent.generation,
+        "rank": agent.rank,
+        "source": os.path.relpath(agent.run.path, home),
+        "rows": [cells[start : start + 3] for start in (0, 3, 6)],
+        "objects": [(word.name.capitalize(), colour) for word, colour in OBJECT_COLOURS.items()],
+        "recordings": recordings_of(agent),
+        "figures": list(_figures_beside(agent)),
+    }
+
+
+def _cell(instruction: str, never_met: bool, successes: int) -> dict[str, Any]:
+    share = successes / TRIALS
+    return {
+        "instruction": instruction,
+        "never_met": never_met,
+        "successes": successes,
+        "percent": f"{100 * share:.0f} %",
+        "colour": to_hex(SUCCESS_MAP(share)),
+        "ink": "#ffffff" if share > 0.55 else "#1a1a1a",
+    }
+
+
+def _figures_beside(agent: Agent) -> Iterable[tuple[str, str]]:
+    """(caption, picture) of what was drawn for exactly this agent."""
+    stem = f"generation-{agent.generation:06d}-rank-{agent.rank}"
+    for folder, caption in FIGURE_FOLDERS.items():
+        for path in sorted((agent.run.path / folder).glob(f"{stem}*.svg")):
+            what = path.stem.removeprefix(stem).strip("-").replace("-", " ")
+            yield (f"{caption}: {what}" if what else caption), file_uri(path)
+
+
+def _films(experiment: Path, home: Path) -> Iterable[tuple[str, str]]:
+    """(name, relative link) of every film that lies beside the runs."""
+    for path in sorted([*experiment.glob("videos/*.mp4"), *experiment.glob("*/*/videos/*.mp4")]):
+        parts = [part for part in path.relative_to(experiment).parts[:-1] if part != "videos"]
+        yield ", ".join([*parts, path.stem.replace("-", " ")]), os.path.relpath(path, home)
+
+
+def _settings(results: Results) -> list[tuple[str, str]]:
+    """Settings of the algorithm, with all values that occur."""
+    mappings = [run.config.settings.to_mapping() for run in results.experiment.all_runs]
+    return [(name, ", ".join(sorted({str(each[name]) for each in mappings}))) for name in mappings[0]]
+
+
+def _readings(readings: Readings) -> list[tuple[str, str, bool]]:
+    """(name, value, whether it is the default) of every reading."""
+    default, values = Readings().to_mapping(), readings.to_mapping()
+    return [
+        (each.name, _plain(values[each.name]), values[each.name] == default[each.name])
+        for each in fields(Readings)
+    ]
+
+
+def _plain(value: object) -> str:
+    return ", ".join(f"{each:g}" for each in value) if isinstance(value, list) else str(value)
+
+
+def _versions(results: Results) -> list[tuple[str, str]]:
+    """With what runs were computed and this page was written; all values that occur."""
+    found: dict[str, set[str]] = {}
+    for run in results.experiment.all_runs:
+        for start in meta.read_meta(run.path / META)["starts"]:
+            own = {
+                **start.get("versions", {}),
+                "revision": start.get("revision", "unknown"),
+                **start.get("machine", {}),
+            }
+            for name, value in own.items():
+                found.setdefault(name, set()).add(str(value))
+    rows = [(name, ", ".join(sorted(values))) for name, values in found.items()]
+    return [*rows, ("this page", f"wordarm {meta.versions()['wordarm']}, revision {meta.revision()}")]
+
+
+def _embedded(value: object) -> Markup:
+    """JSON that can stand in a script element, whatever strings it holds."""
+    text = json.dumps(value, separators=(",", ":"))
+    return Markup(text.replace("<", "\\u003c"))  # noqa: S704 - escaped here

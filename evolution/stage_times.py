@@ -1,0 +1,81 @@
+"""Where the time goes: every process that ended is noted in times.csv, and summed up stage by stage."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from evolution.workers import Ended
+
+FILE: Final = "times.csv"
+COLUMNS: Final = ("stage", "run", "exit_code", "wall_s", "cpu_s", "peak_mb")
+
+
+@dataclass(frozen=True)
+class StageTime:
+    """What a stage took, all runs together.
+
+    Attributes:
+        stage: Its name.
+        processes: How many processes took part, restarts included.
+        wall: The sum of their durations [s].
+        cpu: Their processor time [s].
+        peak: Most memory one of them held [MB].
+    """
+
+    stage: str
+    processes: int
+    wall: float
+    cpu: float
+    peak: float
+
+
+def note_time(folder: Path, ended: Ended) -> None:
+    """Add a process to an experiment's times.csv.
+
+    Raises:
+        OSError: If it cannot be written.
+    """
+    path = folder / FILE
+    new = not path.exists()
+    with path.open("a", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        if new:
+            writer.writerow(COLUMNS)
+        numbers = (f"{ended.wall:.2f}", f"{ended.cpu:.2f}", f"{ended.peak:.0f}")
+        writer.writerow((ended.job.stage, ended.job.name, ended.exit_code, *numbers))
+
+
+def stage_times(folder: Path) -> list[StageTime]:
+    """The sums, in the order in which stages first ended; lines a crash left unfinished are passed over."""
+    sums: dict[str, StageTime] = {}
+    for stage, wall, cpu, peak in _rows(folder / FILE):
+        old = sums.get(stage, StageTime(stage, 0, 0.0, 0.0, 0.0))
+        sums[stage] = StageTime(stage, old.processes + 1, old.wall + wall, old.cpu + cpu, max(old.peak, peak))
+    return list(sums.values())
+
+
+def time_lines(times: Iterable[StageTime]) -> list[str]:
+    """The same for people."""
+    return [
+        f"{each.stage}: {each.cpu:.0f} s of CPU in {each.processes} processes that took {each.wall:.0f} s; "
+        f"at most {each.peak:.0f} MB each"
+        for each in times
+    ]
+
+
+def _rows(path: Path) -> Iterable[tuple[str, float, float, float]]:
+    """(stage, wall, cpu, peak) of every sound line."""
+    try:
+        lines = list(csv.reader(path.read_text(encoding="utf-8", errors="replace").splitlines()))
+    except OSError:
+        return
+    for line in lines:
+        try:
+            stage, _, _, wall, cpu, peak = line
+            yield stage, float(wall), float(cpu), float(peak)
+        except ValueError:
+            continue

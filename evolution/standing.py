@@ -1,0 +1,158 @@
+"""How far the runs of an experiment have come, read from their files alone, and how long they still take.
+
+Pace is told by the times at which finished parts were written, so it can be read at any time, by anyone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+from pathlib import Path
+from statistics import median
+from typing import Final
+
+from evolution import postevaluation, transition_test
+from evolution.config import RunConfig
+from evolution.experiment import state_of
+from evolution.folder import CHAMPIONS, CONFIG, GENERATIONS_PER_PART, LOCK, RunFolder
+from evolution.postevaluation import late_spans
+from evolution.solving import FILE as SOLVED
+from evolution.storage import DamagedFileError
+
+LOCK_TABLE: Final = Path("/proc/locks")
+# Until parts have been tested: the time of 100 generations' tests, as a multiple of that of their
+# evolution, measured with default readings.
+TESTS_PER_EVOLUTION: Final = 2.5
+
+
+@dataclass(frozen=True)
+class Standing:
+    """How far one run has come.
+
+    Attributes:
+        config: The run.
+        generations: In finished parts.
+        best: Best fitness in the last of them; NaN if there is none.
+        tested: Parts of both tests that are there, of `to_test`.
+        to_test: Twice the parts of the late generations.
+        evolved: Whether evolution is over, champions included.
+        done: Whether the tests are over too.
+        at_work: Whether a process holds the run.
+        damage: What is wrong with it, or nothing.
+    """
+
+    config: RunConfig
+    generations: int = 0
+    best: float = float("nan")
+    tested: int = 0
+    to_test: int = 0
+    evolved: bool = False
+    done: bool = False
+    at_work: bool = False
+    damage: str = ""
+
+    @property
+    def name(self) -> str:
+        """Condition and seed."""
+        return f"{self.config.condition}, seed {self.config.seed}"
+
+    @property
+    def state(self) -> str:
+        """One word for it."""
+        if self.damage:
+            return "damaged"
+        if self.done:
+            return "done"
+        if not self.at_work:
+            return "waiting"
+        return "testing" if self.evolved else "evolving"
+
+
+@dataclass(frozen=True)
+class Pace:
+    """What things take [s]: a generation, and a part of one test."""
+
+    generation: float
+    test: float
+
+    def left(self, standing: Standing) -> float:
+        """Time a run still takes [s]; NaN while that is unknown."""
+        generations = standing.config.settings.generations - standing.generations
+        return generations * self.generation + (standing.to_test - standing.tested) * self.test
+
+
+def standing_of(path: Path, config: RunConfig) -> Standing:
+    """How far a run has come; one that was not started has come nowhere."""
+    run = RunFolder(path, config)
+    n_late = len(late_spans(run))
+    if not (path / CONFIG).exists():
+        return Standing(config, to_test=2 * n_late)
+    state = state_of(run)
+    tested = state.evaluated + sum(transition_test.part_path(run, each).exists() for each in late_spans(run))
+    best, damage = float("nan"), state.damage
+    if state.generations:
+        span = run.spans[(state.generations - 1) // GENERATIONS_PER_PART]
+        try:
+            best = _best_of_part(run, span)
+        except DamagedFileError as error:
+            damage = str(error)
+    evolved = state.finished and (path / CHAMPIONS).exists()
+    return Standing(
+        config=config,
+        generations=state.generations,
+        best=best,
+        tested=tested,
+        to_test=2 * n_late,
+        evolved=evolved,
+        done=evolved and tested == 2 * n_late and (path / postevaluation.FOLDER / SOLVED).exists(),
+        at_work=is_held(path),
+        damage=damage,
+    )
+
+
+def is_held(path: Path) -> bool:
+    """Whether a process works on a run; asked without touching its lock."""
+    try:
+        inode = (path / LOCK).stat().st_ino
+        locks = LOCK_TABLE.read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return False
+    return any("FLOCK" in line and f":{inode} " in line and "->" not in line for line in locks)
+
+
+def pace_of(runs: Iterable[RunFolder]) -> Pace:
+    """What a generation and a test's part take, the median over all runs; NaN where nothing tells."""
+    generations, evaluations, transitions = [], [], []
+    for run in runs:
+        generations += _intervals([run.part_path(each) for each in run.spans])
+        evaluations += _intervals([postevaluation.part_path(run, each) for each in late_spans(run)])
+        transitions += _intervals([transition_test.part_path(run, each) for each in late_spans(run)])
+    part = median(generations) if generations else float("nan")
+    default = TESTS_PER_EVOLUTION * part / 2
+    tests = [median(each) if each else default for each in (evaluations, transitions)]
+    return Pace(part / GENERATIONS_PER_PART, sum(tests) / 2)
+
+
+def time_left(standings: Sequence[Standing], pace: Pace, at_once: int) -> float:
+    """Time until all runs are done [s]: what is left, shared by so many processes; at least the longest."""
+    left = [pace.left(each) for each in standings if not each.done and not each.damage]
+    return max([sum(left) / max(at_once, 1), *left], default=0.0)
+
+
+def _intervals(paths: Sequence[Path]) -> list[float]:
+    """Times between the writing of one part and the next [s]."""
+    written = []
+    for path in paths:
+        try:
+            written.append(path.stat().st_mtime)
+        except OSError:
+            break
+    return [later - earlier for earlier, later in pairwise(written) if later > earlier]
+
+
+@lru_cache(maxsize=4096)
+def _best_of_part(run: RunFolder, span: range) -> float:
+    """Best fitness in the last generation of a part, which never changes."""
+    return float(run.read_part(span).best[-1])

@@ -1,0 +1,127 @@
+"""A process of its own for a job, and what is learnt from it: `python -m evolution <command>`."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from evolution.storage import make_folder
+
+BAD_INPUT: Final = 2
+# How the command line begins the one sentence of an error.
+SENTENCE_PREFIX: Final = "wordarm: "
+
+
+@dataclass(frozen=True)
+class Job:
+    """A command to be run as a process of its own, which goes on where it was stopped.
+
+    Attributes:
+        name: Whose it is, for people.
+        stage: What it does, for people.
+        arguments: What follows `python -m evolution`.
+        folder: Where it writes; files that appear there are its progress.
+        log: What it prints is added to this file.
+    """
+
+    name: str
+    stage: str
+    arguments: tuple[str, ...]
+    folder: Path
+    log: Path
+
+
+@dataclass(frozen=True)
+class Ended:
+    """A process that ended, for whatever reason.
+
+    Attributes:
+        job: What it was to do.
+        exit_code: Its exit code; of one killed by a signal, minus its number.
+        wall: How long it took [s].
+        cpu: Processor time of it and its children [s].
+        peak: Most memory it held [MB].
+    """
+
+    job: Job
+    exit_code: int
+    wall: float
+    cpu: float
+    peak: float
+
+    @property
+    def how(self) -> str:
+        """How it ended, in words."""
+        if self.exit_code >= 0:
+            return f"ended with exit code {self.exit_code}"
+        try:
+            name = signal.Signals(-self.exit_code).name
+        except ValueError:
+            name = f"signal {-self.exit_code}"
+        return f"killed by {name}"
+
+
+class Worker:
+    """The process of a job, from its start to its end.
+
+    Raises:
+        OSError: If its log cannot be written or it cannot be started.
+    """
+
+    def __init__(self, job: Job) -> None:
+        self.job = job
+        self._told_to_stop = False
+        make_folder(job.log.parent)
+        with job.log.open("ab") as log:
+            self._log_start = log.tell()
+            # A process group of its own: Ctrl-C reaches it through us, once, and in good order.
+            self._process = subprocess.Popen(  # noqa: S603 - our own program
+                [sys.executable, "-m", "evolution", *job.arguments],
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                process_group=0,
+            )
+        self._began = time.monotonic()
+
+    @property
+    def told_to_stop(self) -> bool:
+        """Whether `stop` was called."""
+        return self._told_to_stop
+
+    def look(self) -> Ended | None:
+        """How it ended; None while it is at work, and for whoever asks again."""
+        if self._process.returncode is not None:
+            return None
+        found, status, usage = os.wait4(self._process.pid, os.WNOHANG)
+        if not found:
+            return None
+        self._process.returncode = os.waitstatus_to_exitcode(status)
+        cpu = usage.ru_utime + usage.ru_stime
+        wall = time.monotonic() - self._began
+        return Ended(self.job, self._process.returncode, wall, cpu, usage.ru_maxrss / 1024)
+
+    def stop(self) -> None:
+        """Ask it once to stop: evolution does so after the generation at hand."""
+        if not self._told_to_stop:
+            self._told_to_stop = True
+            self._process.terminate()
+
+    def kill(self) -> None:
+        """End it at once; its files are whole at any moment."""
+        self._process.kill()
+        self._process.wait()
+
+    def sentence(self) -> str:
+        """What it said of the bad input it met, or where to look."""
+        with self.job.log.open("rb") as file:
+            file.seek(self._log_start)
+            lines = file.read().decode("utf-8", "replace").splitlines()
+        said = [line.removeprefix(SENTENCE_PREFIX) for line in lines if line.startswith(SENTENCE_PREFIX)]
+        return said[-1] if said else f"bad input, but no word of it; see {self.job.log}"
