@@ -85,6 +85,7 @@ def draw_cube(axes: Axes, mean: NDArray[np.float64], plane: NDArray[np.float64])
         for b in corners:
             if (b - a).sum() == 1 and np.abs(b - a).sum() == 1:
                 axes.plot(*((np.array([a, b]) - mean) @ plane).T, color="#DAD7CF", lw=0.7, zorder=0)
+    axes.margins(0.14)  # room for the neurons' names
     origin = -mean @ plane
     for neuron in range(N_INTER):
         tip = (np.eye(N_INTER)[neuron] - mean) @ plane
