@@ -7,10 +7,10 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint format bench clean
+.PHONY: help setup demo reproduce test lint format bench clean
 
 help:  ## what there is to make
-	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 10
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
 
 $(READY): pyproject.toml constraints.txt scripts/setup.sh
 	@sh scripts/setup.sh $(VENV)
@@ -20,6 +20,9 @@ setup: $(READY)  ## the virtual environment, with what the system lacks
 
 demo: $(READY)  ## evolve one run, evaluate its champion and show it on the iCub
 	@PATH="$(abspath $(BIN)):$$PATH" sh scripts/demo.sh $(DEMO) $(DEMO_SEED)
+
+reproduce: $(READY)  ## the whole paper, from random genotypes to the report in runs/paper
+	$(BIN)/wordarm reproduce
 
 test: $(READY)  ## all tests, on all cores
 	$(BIN)/python -m pytest -n auto --dist worksteal

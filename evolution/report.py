@@ -30,7 +30,7 @@ from evolution.report_figures import figure_uri, file_uri
 from evolution.report_sentences import result_sentences, standing_of_best
 from evolution.report_tables import (
     TITLES,
-    category_lines,
+    category_tables,
     comparison_rows,
     departures_in_size,
     main_lines,
@@ -81,7 +81,7 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
     """Everything the template shows."""
     shown = replace(results, conditions={c: e for c, e in results.conditions.items() if len(e.runs)})
     best = [(each, each.best_agent()) for each in shown.conditions.values()]
-    agents = [_agent(each, agent, home) for each, agent in best if agent is not None]
+    agents = [_agent(each, agent, results.experiment.path) for each, agent in best if agent is not None]
     figures = all_figures(shown) if shown.conditions else {}
     experiment = results.experiment
     return {
@@ -91,7 +91,7 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "sizes": departures_in_size(results),
         "titles": [TITLES[each] for each in shown.conditions],
         "main_lines": main_lines(shown),
-        "category_lines": category_lines(shown),
+        "category_tables": category_tables(shown),
         "run_rows": run_rows(shown),
         "comparison_rows": comparison_rows(results),
         "standings": [standing_of(run.path, run.config) for run in experiment.all_runs],
@@ -109,7 +109,7 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
     }
 
 
-def _agent(each: ConditionResults, agent: Agent, home: Path) -> dict[str, Any]:
+def _agent(each: ConditionResults, agent: Agent, experiment: Path) -> dict[str, Any]:
     """The best agent of a condition: its heat map, its recordings, and figures that lie beside its run."""
     instructions = each.condition.instructions
     cells = [
@@ -122,7 +122,7 @@ def _agent(each: ConditionResults, agent: Agent, home: Path) -> dict[str, Any]:
         "seed": agent.run.config.seed,
         "generation": agent.generation,
         "rank": agent.rank,
-        "source": os.path.relpath(agent.run.path, home),
+        "source": str(agent.run.path.relative_to(experiment)),
         "rows": [cells[start : start + 3] for start in (0, 3, 6)],
         "objects": [(word.name.capitalize(), colour) for word, colour in OBJECT_COLOURS.items()],
         "recordings": recordings_of(agent),

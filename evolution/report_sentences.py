@@ -44,43 +44,40 @@ def _generalisation(shown: dict[Condition, ConditionResults]) -> str:
     if not any(found.values()):
         return (
             "No agent is fully compositional, that is above 75 % on the seven experienced instructions and "
-            f"on both it never met ({paper} there are some): {best}."
+            f"on both it never met ({paper} some are): {best}."
         )
     counts = _and(f"{of(n, len(shown[c].runs))} {TITLES[c]} runs" for c, n in found.items())
-    return f"Fully compositional agents arise in {counts} ({paper}): {best}."
+    return f"Agents that understand both instructions they never met arise in {counts} ({paper}): {best}."
 
 
 def _best(condition: Condition, each: ConditionResults) -> str:
     agent = each.best_agent()
     if agent is None:
         return f"{TITLES[condition]} has no agent"
-    order = condition.instructions
-    done = _and(
-        f"{instruction} in {agent.successes[order.index(instruction)]}" for instruction in NON_EXPERIENCED
-    )
-    known = min(int(agent.successes[order.index(e)]) for e in condition.experienced)
-    return (
-        f"the {TITLES[condition]} agent nearest to it carries out {done} of {TRIALS} trials, "
-        f"and no experienced instruction in fewer than {known}"
-    )
+    successes = dict(zip(condition.instructions, map(int, agent.successes), strict=True))
+    done = _and(f"{instruction} in {successes[instruction]}" for instruction in NON_EXPERIENCED)
+    known = min(successes[instruction] for instruction in condition.experienced)
+    others = f"each of the other seven in at least {known}" if known else "one of the other seven in none"
+    return f"the best {TITLES[condition]} agent carries out {done} of {TRIALS} trials, and {others}"
 
 
 def _difference(results: Results, shown: dict[Condition, ConditionResults]) -> str:
+    """Whether any comparison of the conditions tells them apart, runs being the unit."""
     if COMPARED not in results.comparisons:
         (only,) = shown
         return f"Only {TITLES[only]} runs can be analysed, so the conditions are not compared."
-    comparison = results.comparisons[COMPARED]
-    means = " and ".join(percent(mean) for mean in comparison.means)
-    smallest = min((each.mann_whitney_p, name) for name, each in results.comparisons.items())
-    text = (
-        f"Fully compositional are {means} of the With-Indicate and With-Ignore agents "
-        f"(Mann-Whitney test on runs, p = {p_value(comparison.mann_whitney_p)}"
-    )
-    if smallest[0] >= LEVEL:
-        return f"{text}), and nothing else we compare differs between the conditions either (p at least " + (
-            f"{p_value(smallest[0])}), unlike in the paper."
+    first, second = (percent(mean) for mean in results.comparisons[COMPARED].means)
+    share = f"of the With-Indicate agents {first} are fully compositional, of the With-Ignore agents {second}"
+    p, name = min((each.mann_whitney_p, name) for name, each in results.comparisons.items())
+    if p >= LEVEL:
+        return (
+            f"No difference between the conditions can be claimed (smallest p of all comparisons, runs being "
+            f"the unit: {p_value(p)}), while the paper claims one: {share}."
         )
-    return f"{text}); the smallest p of all comparisons, {p_value(smallest[0])}, is that of {smallest[1]}."
+    return (
+        f"The conditions differ most in {name} (p = {p_value(p)}, runs being the unit, "
+        f"smallest of {len(results.comparisons)} comparisons): {share}."
+    )
 
 
 def _and(parts) -> str:

@@ -77,17 +77,17 @@ def main_lines(results: Results) -> list[Line]:
     return lines
 
 
-def category_lines(results: Results) -> list[Line]:
-    """Table II: agents by category; four (paper, ours) pairs for each condition."""
-    lines = []
-    for category in range(N_CATEGORIES):
-        pairs = [
-            (f"{published.TABLE_II[condition][category, column]:,}", f"{each.counts[category, column]:,}")
-            for condition, each in results.conditions.items()
-            for column in range(len(SUBTASKS))
-        ]
-        lines.append(Line(_category(category), tuple(pairs)))
-    return lines
+def category_tables(results: Results) -> list[tuple[str, list[Line]]]:
+    """Table II: for each condition agents by category, with a (paper, ours) pair for each sub-task."""
+    tables = []
+    for condition, each in results.conditions.items():
+        lines = []
+        for category in range(N_CATEGORIES):
+            pairs = zip(published.TABLE_II[condition][category], each.counts[category], strict=True)
+            texts = tuple((f"{theirs:,}", f"{ours:,}") for theirs, ours in pairs)
+            lines.append(Line(_category(category), texts))
+        tables.append((TITLES[condition], lines))
+    return tables
 
 
 def run_rows(results: Results) -> list[tuple[str, ...]]:
@@ -138,7 +138,8 @@ def departures_in_size(results: Results) -> list[str]:
         ]
     for condition, each in results.conditions.items():
         if len(each.runs) != published.RUNS:
-            sentences.append(f"{len(each.runs)} {TITLES[condition]} runs, not {published.RUNS}")
+            runs = "run" if len(each.runs) == 1 else "runs"
+            sentences.append(f"{len(each.runs)} {TITLES[condition]} {runs}, not {published.RUNS}")
     return sentences
 
 
@@ -152,7 +153,7 @@ def percent(share: float) -> str:
 def p_value(p: float) -> str:
     """A p-value as exact as it makes sense."""
     if math.isnan(p):
-        return "–"  # noqa: RUF001 - a dash in print
+        return "not defined"
     if p < 1e-300:
         return "below 1e-300"
     return f"{p:.2g}" if p < 0.995 else "1"
@@ -178,6 +179,8 @@ def _plateau(condition: Condition, each: ConditionResults) -> tuple[str, str]:
     if not len(each.runs):
         return paper, "no run"
     low, middle, high = np.quantile(each.plateau, [0, 0.5, 1])
+    if len(each.runs) == 1:
+        return paper, f"{middle:.2f}"
     return paper, f"{low:.2f} to {high:.2f}, median {middle:.2f}"
 
 
@@ -225,4 +228,5 @@ def _category(category: int) -> str:
 
 
 def _points(difference: float) -> str:
-    return f"{100 * difference:+.1f}".replace("-", "−")  # noqa: RUF001 - minus
+    rounded = round(100 * difference, 1) + 0.0  # no minus before nought
+    return f"{rounded:+.1f}".replace("-", "−") if rounded else "0.0"  # noqa: RUF001 - minus

@@ -5,13 +5,14 @@ What is done is known from the files of a run alone, so the same command goes on
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
+from evolution.analysis import Results
 from evolution.config import RunConfig
-from evolution.folder import CONFIG, refuse_other
+from evolution.folder import CONFIG, RunFolder, refuse_other
 from evolution.jobs import Failure, Watcher, run_jobs
 from evolution.lock import RunInUseError, locked
 from evolution.standing import Pace, Standing, pace_of, standing_of
@@ -44,8 +45,6 @@ class Plan:
 
     def pace(self) -> Pace:
         """How fast the runs have been."""
-        from evolution.folder import RunFolder
-
         return pace_of(RunFolder(self.path(config), config) for config in self.configs)
 
     def check(self) -> None:
@@ -97,6 +96,24 @@ def run_plan(plan: Plan, at_once: int, watcher: Watcher) -> tuple[Failure, ...]:
     return run_jobs(plan.chains(), at_once, free)
 
 
+def agent_chains(results: Results, folder: Path) -> list[list[Job]]:
+    """What is still to be drawn of the best agent of each condition: its ancestors, and how it does it."""
+    chains = []
+    for condition, each in results.conditions.items():
+        if (agent := each.best_agent()) is None:
+            continue
+        path, stem = agent.run.path, f"generation-{agent.generation:06d}-rank-{agent.rank}"
+        name, log = f"{condition}, its best agent", folder / LOGS / f"{condition}-best-agent.log"
+        which = (str(path), f"--generation={agent.generation}", f"--rank={agent.rank}")
+        for command, stage, done in (
+            ("lineage", "tracing ancestors", path / "lineage" / f"{stem}.npz"),
+            ("behaviour", "observing", path / "behaviour" / f"{stem}-behaviour.npz"),
+        ):
+            if not done.exists():
+                chains.append([Job(name, stage, (command, *which), path, log)])
+    return chains
+
+
 def in_use(path: Path) -> bool:
     """Whether another process works on a run, such as one left over when its parent was killed."""
     if not (path / CONFIG).exists():
@@ -108,10 +125,9 @@ def in_use(path: Path) -> bool:
         return True
 
 
-def watched_standings(plan: Plan, names_at_work: Callable[[], set[str]]) -> tuple[Sequence[Standing], Pace]:
-    """Standings and pace for the live table; our own processes are at work before they hold their run."""
-    names = names_at_work()
-    standings = [replace(each, at_work=each.at_work or each.name in names) for each in plan.standings()]
+def watched_standings(plan: Plan, at_work: Set[str]) -> tuple[Sequence[Standing], Pace]:
+    """Standings and pace for the live table; runs named are at work before they are held."""
+    standings = [replace(each, at_work=each.at_work or each.name in at_work) for each in plan.standings()]
     return standings, plan.pace()
 
 

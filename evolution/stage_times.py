@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable
+import resource
+import time
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from evolution.workers import Ended
+from evolution.workers import Ended, Job
 
 FILE: Final = "times.csv"
 COLUMNS: Final = ("stage", "run", "exit_code", "wall_s", "cpu_s", "peak_mb")
@@ -47,6 +50,20 @@ def note_time(folder: Path, ended: Ended) -> None:
             writer.writerow(COLUMNS)
         numbers = (f"{ended.wall:.2f}", f"{ended.cpu:.2f}", f"{ended.peak:.0f}")
         writer.writerow((ended.job.stage, ended.job.name, ended.exit_code, *numbers))
+
+
+@contextmanager
+def timed(folder: Path, stage: str) -> Iterator[None]:
+    """Note what this process does while it is open like a process of its own.
+
+    Raises:
+        OSError: As `note_time`.
+    """
+    wall, cpu = time.monotonic(), time.process_time()
+    yield
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    job = Job("all runs", stage, (), folder, folder / FILE)
+    note_time(folder, Ended(job, 0, time.monotonic() - wall, time.process_time() - cpu, peak))
 
 
 def stage_times(folder: Path) -> list[StageTime]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 from tyro.conf import arg
 
@@ -16,10 +17,14 @@ from evolution.config import RunConfig
 from evolution.settings import Settings
 
 if TYPE_CHECKING:
+    from evolution.analysis import Results
+    from evolution.interrupt import StopRequest
     from evolution.jobs import Failure
     from evolution.reproduce import Plan
+    from evolution.workers import Job
 
-MOST_RUNS = 10_000
+MOST_RUNS: Final = 10_000
+BAD_INPUT: Final = 2
 
 
 @dataclass(frozen=True)
@@ -61,7 +66,8 @@ class Reproduce:
         return Plan(self.output, tuple(configs))
 
     def run(self) -> int:
-        """Reproduce; the exit code is 130 if it was stopped, 2 if a run was given up."""
+        """Reproduce; the exit code is 130 if it was stopped, 2 if a job was given up."""
+        from evolution.interrupt import StopRequest
         from evolution.lock import locked
         from evolution.storage import make_folder
 
@@ -72,35 +78,34 @@ class Reproduce:
         plan.check()
         make_folder(plan.folder)
         with locked(plan.folder):
-            failures, stopped = _evolve_and_test(plan, at_once)
-            if stopped:
-                print("stopped; go on with the same command")
-                return INTERRUPTED
-            _analyse_and_report(plan.folder)
+            with StopRequest() as stop:
+                failures = _evolve_and_test(plan, at_once, stop)
+                results = None if stop.requested else _analyse(plan.folder)
+                if results and not stop.requested:
+                    failures += _look_at_agents(results, plan.folder, at_once, stop)
+                if results is None or stop.requested:
+                    print("stopped; go on with the same command")
+                    return INTERRUPTED
+            _report(results, plan.folder)
         _tell_times(plan.folder, time.monotonic() - began)
         for each in failures:
             print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
-        return 2 if failures else 0
+        return BAD_INPUT if failures else 0
 
 
-def _evolve_and_test(plan: Plan, at_once: int) -> tuple[tuple[Failure, ...], bool]:
-    """Run all jobs under the live table: (those given up, whether it was stopped)."""
+def _evolve_and_test(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
+    """Run the runs' jobs under the live table; those given up."""
     from rich.console import Console
 
-    from evolution.interrupt import StopRequest
     from evolution.jobs import Watcher
     from evolution.live_table import shown_table
     from evolution.reproduce import run_plan, watched_standings
     from evolution.stage_times import note_time
 
     console, at_work = Console(), set[str]()
+    with shown_table(console, lambda: watched_standings(plan, at_work), at_once) as show:
 
-    with (
-        StopRequest() as stop,
-        shown_table(console, lambda: watched_standings(plan, lambda: at_work), at_once) as show,
-    ):
-
-        def tick(jobs) -> None:
+        def tick(jobs: Sequence[Job]) -> None:
             at_work.clear()
             at_work.update(job.name for job in jobs)
             show()
@@ -113,34 +118,48 @@ def _evolve_and_test(plan: Plan, at_once: int) -> tuple[tuple[Failure, ...], boo
         )
         failures = run_plan(plan, at_once, watcher)
         at_work.clear()
-        return failures, stop.requested
+    return failures
 
 
-def _analyse_and_report(folder: Path) -> None:
-    """Tables and figures into `results`, and the page; notes the time like that of a process."""
-    import resource
-
-    from evolution.stage_times import note_time
-    from evolution.workers import Ended, Job
-
-    wall, cpu = time.monotonic(), time.process_time()
-    _write_everything(folder)
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    job = Job("all runs", "analysing", (), folder, folder)
-    note_time(folder, Ended(job, 0, time.monotonic() - wall, time.process_time() - cpu, peak))
-
-
-def _write_everything(folder: Path) -> None:
+def _analyse(folder: Path) -> Results:
+    """The results, their tables and figures written into `results`."""
     from evolution.analysis import analyse
     from evolution.experiment import open_experiment
-    from evolution.report import write_report
     from evolution.result_files import summary, write_results
+    from evolution.stage_times import timed
 
-    print("tables, figures and the report are being written", flush=True)
-    results = analyse(open_experiment(folder))
-    write_results(results, folder / "results")
-    print(summary(results))
-    print(write_report(results, folder / "report.html"))
+    print("analysing all runs", flush=True)
+    with timed(folder, "analysing"):
+        results = analyse(open_experiment(folder))
+        write_results(results, folder / "results")
+    print(summary(results), flush=True)
+    return results
+
+
+def _look_at_agents(results: Results, folder: Path, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
+    """Trace and observe the best agent of each condition; the jobs given up."""
+    from evolution.jobs import Watcher, run_jobs
+    from evolution.reproduce import agent_chains
+    from evolution.stage_times import note_time
+
+    if chains := agent_chains(results, folder):
+        print("tracing the best agents' ancestors, and what they do", flush=True)
+    watcher = Watcher(
+        on_end=lambda ended: note_time(folder, ended),
+        on_note=lambda note: print(note, flush=True),
+        wants_stop=lambda: stop.requested,
+    )
+    return run_jobs(chains, at_once, watcher)
+
+
+def _report(results: Results, folder: Path) -> None:
+    """The page."""
+    from evolution.report import write_report
+    from evolution.stage_times import timed
+
+    with timed(folder, "reporting"):
+        path = write_report(results, folder / "report.html")
+    print(path, flush=True)
 
 
 def _tell_times(folder: Path, wall: float) -> None:

@@ -1,0 +1,231 @@
+"""The whole way from random genotypes to the report, scaled down; stopped, killed, refused."""
+
+import os
+import random
+import re
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from arm2d import Condition, Readings
+from evolution.cli import main, parse
+from evolution.config import RunConfig
+from evolution.folder import LOCK
+from evolution.live_table import duration, plain_lines
+from evolution.lock import locked
+from evolution.reproduce import Plan, evolve_arguments, in_use
+from evolution.settings import Settings
+from evolution.stage_times import FILE, stage_times
+from evolution.standing import Pace, Standing, is_held, standing_of, time_left
+
+# Far from the paper, so that no stage takes long.
+FLAGS = ["--runs=1", "--population=10", "--elites=2", "--parents=5", "--generations=230"]
+
+
+def command(folder):
+    return [sys.executable, "-m", "evolution", "reproduce", *FLAGS, f"--output={folder}"]
+
+
+def results_of(folder):
+    """Every file of the runs that is determined by them, as bytes."""
+    names = sorted(path for path in folder.glob("*/seed-*/**/*.npz") if path.name != "checkpoint.npz")
+    return {str(path.relative_to(folder)): path.read_bytes() for path in names}
+
+
+@pytest.fixture(scope="session")
+def reproduced(tmp_path_factory):
+    """A scaled-down reproduction, finished without disturbance, and what it printed."""
+    folder = tmp_path_factory.mktemp("reproduced") / "small"
+    done = subprocess.run(command(folder), capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder, done.stdout
+
+
+@pytest.mark.slow
+def test_a_scaled_down_paper_ends_with_report_tables_and_times(reproduced):
+    folder, output = reproduced
+    assert (folder / "report.html").stat().st_size > 100_000
+    assert (folder / "results" / "table-ii.csv").exists()
+    assert str(folder / "report.html") in output
+    for stage in ("evolving", "testing", "analysing", "tracing ancestors", "observing", "reporting"):
+        assert re.search(rf"^  {stage}: \d+ s of CPU in \d processes", output, re.MULTILINE), stage
+    assert "\x1b" not in output
+
+
+@pytest.mark.slow
+def test_repeated_it_does_nothing_again_but_the_tables_and_the_page(reproduced):
+    folder, _ = reproduced
+    before, times = results_of(folder), len((folder / FILE).read_text().splitlines())
+    assert main(["reproduce", *FLAGS, f"--output={folder}"]) == 0
+    assert results_of(folder) == before
+    assert len((folder / FILE).read_text().splitlines()) == times + 2  # analysing and reporting
+
+
+@pytest.mark.slow
+def test_stopped_it_ends_its_workers_and_goes_on_with_the_same_command(reproduced, tmp_path):
+    folder = tmp_path / "small"
+    process = subprocess.Popen(command(folder), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    wait_for(lambda: list(folder.glob("*/seed-0001/parts/*.npz")))
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=60)
+    assert process.returncode == 130, errors
+    assert output.endswith("stopped; go on with the same command\n")
+    assert not any(is_held(path) for path in folder.glob("*/seed-0001"))
+    assert main(["reproduce", *FLAGS, f"--output={folder}"]) == 0
+    assert results_of(folder) == results_of(reproduced[0])
+
+
+@pytest.mark.slow
+def test_workers_and_parent_killed_at_random_cost_nothing_but_time(reproduced, tmp_path):
+    folder, rng, kills = tmp_path / "small", random.Random(1), 0
+    for _ in range(3):
+        process = subprocess.Popen(command(folder), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        for _ in range(3):
+            time.sleep(rng.uniform(0.2, 1.2))
+            kills += sum(kill_holder(path) for path in folder.glob("*/seed-0001"))
+        process.kill()  # workers at work are left over, and waited for by the next
+        process.wait()
+    done = subprocess.run(command(folder), capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert kills
+    assert results_of(folder) == results_of(reproduced[0])
+
+
+def wait_for(condition, seconds=60):
+    until = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < until
+        time.sleep(0.02)
+
+
+def kill_holder(path: Path) -> bool:
+    """Kill the process that works on a run, if there is one."""
+    try:
+        holder = int((path / LOCK).read_text() or 0)
+        if holder and is_held(path):
+            os.kill(holder, signal.SIGKILL)
+            return True
+    except (OSError, ValueError):
+        pass
+    return False
+
+
+@pytest.mark.slow
+def test_status_tells_the_same_from_another_terminal(reproduced, capsys):
+    assert main(["status", str(reproduced[0])]) == 0
+    output = capsys.readouterr().out
+    assert output.startswith("2 of 2 runs done, 0 at work\n")
+    assert re.search(r"with-ignore, seed 1 +done +230 of 230 +\d\.\d{3} +100 %", output)
+
+
+@pytest.mark.parametrize("condition", Condition)
+def test_the_command_of_a_run_starts_exactly_that_run(condition, tmp_path):
+    readings = Readings(sector_centres=(45.0, 90.0, 135.0), sector_half_width=3.0, mutation_sd=0.1 + 0.2)
+    config = RunConfig(condition, 7, Settings(generations=12, trials_per_area=3), readings)
+    assert parse(evolve_arguments(config, tmp_path)).config == config
+
+
+def test_without_options_it_is_the_papers_size():
+    plan = parse(["reproduce"]).plan
+    assert [len([c for c in plan.configs if c.condition is each]) for each in Condition] == [10, 10]
+    assert {config.settings for config in plan.configs} == {Settings()}
+    assert plan.path(plan.configs[0]) == Path("runs/paper/with-indicate/seed-0001")
+
+
+def test_a_preset_is_the_start_of_its_readings():
+    command = parse(["reproduce", "--preset=printed", "--readings.turn=radians"])
+    assert command.plan.configs[0].readings == Readings.preset("printed").with_values({"turn": "radians"})
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--runs=0"], "asked for 0 runs of each condition; give 1 to 10000"),
+        (["--jobs=0"], "asked for 0 processes at a time; there must be at least 1"),
+        (["--generations=0"], "setting generations = 0 must lie in [1, 1000000]"),
+        (["--readings.object-radius=20"], "reading object_radius = 20 must lie in"),
+        (["--preset=mine"], "unknown preset of readings 'mine'; there are default, printed"),
+        (["--output={file}"], "File exists; choose another folder"),
+    ],
+)
+def test_bad_input_gets_one_sentence_before_anything_starts(arguments, sentence, tmp_path, capsys):
+    (tmp_path / "file").write_text("dear reader")
+    given = [each.format(file=tmp_path / "file") for each in arguments]
+    assert main(["reproduce", f"--output={tmp_path / 'none'}", *given]) == 2
+    assert sentence in capsys.readouterr().err
+    assert [each.name for each in tmp_path.iterdir()] == ["file"]
+
+
+def test_a_folder_of_another_experiment_is_refused_and_left_alone(finished_run, tmp_path, capsys):
+    (tmp_path / "with-indicate").mkdir()
+    (tmp_path / "with-indicate" / "seed-0001").symlink_to(finished_run)
+    before = sorted(finished_run.rglob("*"))
+    assert main(["reproduce", "--runs=1", f"--output={tmp_path}"]) == 2
+    error = capsys.readouterr().err
+    assert "was started with seed = 11, not 1; settings.population = 10, not 100" in error
+    assert sorted(finished_run.rglob("*")) == before
+    assert [each.name for each in tmp_path.iterdir()] == ["with-indicate"]
+
+
+def test_two_at_once_on_one_folder_are_refused(tmp_path, capsys):
+    with locked(tmp_path):
+        assert main(["reproduce", "--runs=1", f"--output={tmp_path}"]) == 2
+    assert "another process" in capsys.readouterr().err
+
+
+def test_stages_left_to_do_follow_from_the_files(finished_run, tmp_path):
+    config = RunConfig.from_toml((finished_run / "config.toml").read_text())
+    path = tmp_path / "with-indicate" / "seed-0011"
+    path.parent.mkdir()
+    path.symlink_to(finished_run)
+    other = replace(config, seed=12)
+    evolved, fresh = Plan(tmp_path, (config, other)).chains()
+    assert [job.stage for job in evolved] == ["testing"]
+    assert [job.stage for job in fresh] == ["evolving", "testing"]
+
+
+def test_a_held_run_is_seen_without_touching_its_lock(run_copy):
+    config = RunConfig.from_toml((run_copy / "config.toml").read_text())
+    assert not in_use(run_copy)
+    with locked(run_copy):
+        assert in_use(run_copy)
+        if Path("/proc/locks").exists():
+            assert is_held(run_copy)
+            assert standing_of(run_copy, config).at_work
+    assert not is_held(run_copy)
+
+
+def test_a_damaged_part_is_told_as_the_state_of_its_run(run_copy):
+    config = RunConfig.from_toml((run_copy / "config.toml").read_text())
+    (run_copy / "parts" / "gen-000200-000229.npz").write_bytes(b"nothing")
+    standing = standing_of(run_copy, config)
+    assert standing.state == "damaged"
+    assert "wordarm repair" in standing.damage
+
+
+def test_what_is_left_is_shared_by_the_processes():
+    settings = Settings(generations=1000)
+    runs = [Standing(RunConfig(seed=i, settings=settings), generations=500, to_test=4) for i in range(4)]
+    pace = Pace(generation=0.01, test=2.0)
+    assert pace.left(runs[0]) == pytest.approx(5 + 8)
+    assert time_left(runs, pace, at_once=2) == pytest.approx(26)
+    assert time_left(runs, pace, at_once=8) == pytest.approx(13)  # no run is shared
+    assert plain_lines(runs, pace, 2) == ["0 of 4 runs done, 0 at work, 26 s to go"]
+
+
+def test_durations_are_as_exact_as_anyone_wants_to_know():
+    told = [duration(seconds) for seconds in (4.4, 89, 300, 6000, float("nan"))]
+    assert told == ["4 s", "89 s", "5 min", "1 h 40 min", "-"]
+
+
+def test_times_survive_a_line_that_a_crash_left_unfinished(tmp_path):
+    (tmp_path / FILE).write_text(
+        "stage,run,exit_code,wall_s,cpu_s,peak_mb\nevolving,a,0,2,1,100\nevolving,b,0,2"
+    )
+    (only,) = stage_times(tmp_path)
+    assert (only.stage, only.processes, only.wall, only.cpu, only.peak) == ("evolving", 1, 2.0, 1.0, 100.0)
