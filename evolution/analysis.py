@@ -24,7 +24,7 @@ from evolution.recorded import recorded_history
 from evolution.settings import N_BEST
 from evolution.solving import solved_trials
 from evolution.statistics import Comparison, compare, mean_interval, wilcoxon_as_published
-from evolution.subtasks import SUBTASKS, AgentClass, categories, classify, count_table
+from evolution.subtasks import N_CATEGORIES, SUBTASKS, AgentClass, categories, classify, count_table
 from evolution.transition_test import CLASSES, TransitionTest, read_transition_test
 from evolution.transitions import passes
 
@@ -206,7 +206,8 @@ def _analyse_condition(condition: Condition, runs: tuple[RunFolder, ...]) -> Con
     best = _stack([each.best for each in histories])
     last = max(1, round(best.shape[1] * PLATEAU_SHARE)) if best.size else 1
     per_run = [categories(each.reshape(-1, N_INSTRUCTIONS), condition) for each in successes]
-    counts_per_run = np.array([count_table(each) for each in per_run]).reshape(-1, 11, len(SUBTASKS))
+    tables = [count_table(each) for each in per_run]
+    counts_per_run = np.array(tables, np.int64).reshape(len(complete), N_CATEGORIES, len(SUBTASKS))
     classes = [classify(each.reshape(-1, N_INSTRUCTIONS), condition) for each in successes]
     full = [each[AgentClass.FULL].reshape(len(generations), N_BEST).sum(axis=1) for each in classes]
     return ConditionResults(
@@ -221,7 +222,7 @@ def _analyse_condition(condition: Condition, runs: tuple[RunFolder, ...]) -> Con
         counts=counts_per_run.sum(axis=0),
         counts_per_run=counts_per_run,
         members={c: np.array([each[c].sum() for each in classes], np.int64) for c in AgentClass},
-        generalisers=np.array(full, np.int64).reshape(-1, len(generations)),
+        generalisers=np.array(full, np.int64).reshape(len(complete), len(generations)),
         transitions=_transition_outcomes([read_transition_test(run) for run in complete]),
         missing=tuple(missing),
     )

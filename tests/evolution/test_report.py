@@ -191,7 +191,6 @@ def test_names_are_escaped(text):
     assert "<small>”" not in text
 
 
-@pytest.mark.xfail(raises=ValueError, reason="evolution.analysis cannot reshape the results of no run")
 def test_what_is_missing_is_named_and_the_rest_is_shown(experiment, tmp_path):
     folder = tmp_path / "partly"
     shutil.copytree(experiment, folder)
@@ -204,7 +203,6 @@ def test_what_is_missing_is_named_and_the_rest_is_shown(experiment, tmp_path):
     assert re.search(r"with-ignore, seed 1 30 of 30 \d\.\d{3} 0 %", words)
 
 
-@pytest.mark.xfail(raises=ValueError, reason="evolution.analysis cannot reshape the results of no run")
 def test_an_experiment_without_any_result_is_a_page_too(finished_run, tmp_path):
     path = write_report(analyse(open_experiment(finished_run)), tmp_path / "new" / "page.html")
     page = Page(path.read_text(encoding="utf-8"))
