@@ -8,7 +8,8 @@ The hand's position is met exactly, its heading and level as nearly as the postu
 Per target one proximal Gauss-Newton step on the whole problem (`inertia` holds on to the last posture,
 without it the redundant joints oscillate), then Newton steps on the position alone until the error is
 below `TOLERANCE`.
-Both are the quadratic programme of `mujoco_port.quadratic`.
+Both are the quadratic programme of `mujoco_port.quadratic`. Between two targets of a path no joint turns by
+more than `MAX_TURN`, where that lets the hand arrive.
 """
 
 from __future__ import annotations
@@ -19,14 +20,19 @@ import numpy as np
 import pinocchio as pin
 
 from models.robots import Robot
-from models.urdf import find_urdf
+from mujoco_port.hand import hand_model
 from mujoco_port.quadratic import bounded, relaxed
 
 WORLD_AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 TOLERANCE = 1e-10  # [m], distance to the target at which the Newton steps end
 MAX_NEWTON_STEPS = 30
+MAX_TURN = 0.12  # [rad], of one joint from one target to the next; the project promises 0.15
 MAX_SETTLING_STEPS = 400
 SETTLED = 1e-7  # [rad], change per step at which a posture counts as settled
+# The search for the nearest place to a target that Newton steps did not reach.
+N_STARTS = 12  # postures it starts from: the last one, rest, and random ones
+MAX_DAMPED_STEPS = 200
+FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING = 1e-3, 1e-12, 1e6  # of J'J [m^2/rad^2]
 
 
 class OutOfReachError(ValueError):
@@ -95,10 +101,11 @@ class ArmKinematics:
         angles = np.clip(self.rest, self.lower, self.upper)
         for _ in range(MAX_SETTLING_STEPS):
             before = angles
-            angles = self._relax(angles, target, heading)
+            angles = self._relax(angles, target, heading, self.lower, self.upper)
             if np.abs(angles - before).max() < SETTLED:
                 break
-        return self._home_in(angles, target)
+        arrived = self._home_in(angles, target, self.lower, self.upper)
+        return self._nearest(angles, target) if arrived is None else arrived
 
     def step(self, angles: np.ndarray, target: np.ndarray, heading: float) -> np.ndarray:
         """Give the posture [J] in [rad] for the next target of a path.
@@ -111,7 +118,12 @@ class ArmKinematics:
         Raises:
             OutOfReachError: If no posture within the limits reaches the target.
         """
-        return self._home_in(self._relax(angles, target, heading), target)
+        lower = np.maximum(self.lower, angles - MAX_TURN)
+        upper = np.minimum(self.upper, angles + MAX_TURN)
+        arrived = self._home_in(self._relax(angles, target, heading, lower, upper), target, lower, upper)
+        if arrived is None:  # further away than a turn leads
+            arrived = self._home_in(angles, target, self.lower, self.upper)
+        return self._nearest(angles, target) if arrived is None else arrived
 
     def follow(self, targets: np.ndarray, headings: np.ndarray) -> np.ndarray:
         """Give the postures [K, J] in [rad] along a path of targets [K, 3] in [m] and headings [K] in [rad].
@@ -125,7 +137,9 @@ class ArmKinematics:
             path[k] = self.step(path[k - 1], targets[k], headings[k])
         return path
 
-    def _relax(self, angles: np.ndarray, target: np.ndarray, heading: float) -> np.ndarray:
+    def _relax(
+        self, angles: np.ndarray, target: np.ndarray, heading: float, lower: np.ndarray, upper: np.ndarray
+    ) -> np.ndarray:
         """Take one proximal Gauss-Newton step on position, posture, heading and level together."""
         jacobian = self._jacobian(angles)
         hand = self._placement
@@ -138,38 +152,60 @@ class ArmKinematics:
             self.rest,
             self._weights,
             self._wishes,
-            self.lower,
-            self.upper,
+            lower,
+            upper,
         )
 
-    def _home_in(self, angles: np.ndarray, target: np.ndarray) -> np.ndarray:
-        """Take Newton steps on the position alone until the hand is there."""
+    def _home_in(
+        self, angles: np.ndarray, target: np.ndarray, lower: np.ndarray, upper: np.ndarray
+    ) -> np.ndarray | None:
+        """Take Newton steps on the position alone until the hand is there; None if it does not arrive."""
         for _ in range(MAX_NEWTON_STEPS):
             jacobian = self._jacobian(angles)
             error = target - self._placement.translation
             if error @ error < TOLERANCE**2:
                 return angles
-            angles = bounded(self._metric, self._no_pull, jacobian, error, angles, self.lower, self.upper)
-        raise OutOfReachError(target, float(np.linalg.norm(error)), self.robot.name)
+            angles = bounded(self._metric, self._no_pull, jacobian, error, angles, lower, upper)
+        return None
+
+    def _nearest(self, angles: np.ndarray, target: np.ndarray) -> np.ndarray:
+        """Search from several postures for one that reaches the target after all.
+
+        The starts are the same whenever this is called, so results repeat.
+
+        Raises:
+            OutOfReachError: If none does; it tells the distance from the nearest place.
+        """
+        random = np.random.default_rng(0).uniform(self.lower, self.upper, (N_STARTS - 2, len(self.rest)))
+        shortest = np.inf
+        for start in (angles, np.clip(self.rest, self.lower, self.upper), *random):
+            nearest, distance = self._descend(start, target)
+            arrived = self._home_in(nearest, target, self.lower, self.upper)
+            if arrived is not None:
+                return arrived
+            shortest = min(shortest, distance)
+        raise OutOfReachError(target, shortest, self.robot.name)
+
+    def _descend(self, angles: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, float]:
+        """Shorten the distance to a target by Levenberg-Marquardt steps within the joint limits."""
+        identity, no_rows = np.eye(len(angles)), np.empty(0)
+        damping = FIRST_DAMPING
+        jacobian = self._jacobian(angles)[:3]
+        error = target - self._placement.translation
+        for _ in range(MAX_DAMPED_STEPS):
+            hessian = jacobian.T @ jacobian + damping * identity
+            trial = bounded(hessian, -error @ jacobian, jacobian, no_rows, angles, self.lower, self.upper)
+            trial_jacobian = self._jacobian(trial)[:3]
+            trial_error = target - self._placement.translation
+            if trial_error @ trial_error < error @ error:
+                angles, jacobian, error = trial, trial_jacobian, trial_error
+                damping = max(damping / 3.0, LEAST_DAMPING)
+            elif damping < MOST_DAMPING:
+                damping *= 4.0
+            else:
+                break
+        return angles, float(np.linalg.norm(error))
 
     def _jacobian(self, angles: np.ndarray) -> np.ndarray:
         """Give the hand's Jacobian [6, J] in world axes; the hand's placement is updated on the way."""
         return pin.computeFrameJacobian(self._model, self._data, angles, self._hand, WORLD_AXES)
-
-
-def hand_model(robot: Robot) -> tuple[pin.Model, int]:
-    """Give Pinocchio's model of the acting joints, standing in the world, and its hand frame's index."""
-    whole = pin.buildModelFromUrdf(str(find_urdf(robot)))
-    locked = [index for index, name in enumerate(whole.names) if index > 0 and name not in robot.joints]
-    angles = pin.neutral(whole)
-    for name, angle in robot.fixed.items():
-        angles[whole.joints[whole.getJointId(name)].idx_q] = angle
-    model = pin.buildReducedModel(whole, locked, angles)
-    base = pin.SE3(pin.rpy.rpyToMatrix(0.0, 0.0, robot.base_yaw), np.array(robot.base_position))
-    for joint in range(1, model.njoints):
-        if model.parents[joint] == 0:
-            model.jointPlacements[joint] = base * model.jointPlacements[joint]
-    link = model.frames[model.getFrameId(robot.hand_frame)]
-    offset = pin.SE3(np.eye(3), np.array(robot.hand_offset))
-    hand = pin.Frame("hand", link.parentJoint, link.placement * offset, pin.FrameType.OP_FRAME)
-    return model, model.addFrame(hand)

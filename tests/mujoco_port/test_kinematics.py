@@ -3,9 +3,10 @@
 import mujoco
 import numpy as np
 import pytest
+from scipy.optimize import least_squares
 
 from models.build import HAND_SITE, ROBOT_PREFIX, build_model
-from mujoco_port.kinematics import OutOfReachError
+from mujoco_port.kinematics import MAX_TURN, OutOfReachError
 from mujoco_port.rollout import roll_out
 from mujoco_port.workspace import hand_headings, hand_targets
 
@@ -81,6 +82,49 @@ def test_hand_stays_level_with_the_table_and_points_outwards(robot, kinematics, 
 def test_same_targets_give_the_same_postures(robot, champion_records):
     first, second = (roll_out(champion_records[0], robot) for _ in range(2))
     np.testing.assert_array_equal(first.angles, second.angles)
+
+
+def test_no_joint_turns_far_where_the_arm_meets_its_limits(robot, kinematics):
+    """At the left bound five joints are near a limit at once; torso_yaw once turned by 0.157 rad there."""
+    alpha = np.array([*np.arange(152.3, 207.5, 2.9), 210.0, 210.0, 210.0, 207.1])
+    beta = np.array([90.0] * 8 + [90.0 - 2.9 * k for k in range(1, len(alpha) - 7)])
+    targets, headings = hand_targets(robot.plane, alpha, beta), hand_headings(robot.plane, alpha, beta)
+    angles = kinematics.follow(targets, headings)
+    assert_followed(kinematics, targets, angles)
+    assert np.abs(np.diff(angles, axis=0)).max() <= MAX_TURN + 1e-12
+
+
+def test_trial_can_start_at_every_bound_of_the_workspace(robot, kinematics):
+    for alpha in (-30.0, 0.0, 90.0, 180.0, 210.0):
+        for beta in np.linspace(0.0, 90.0, 31):
+            target = hand_targets(robot.plane, alpha, beta)
+            angles = kinematics.settle(target, float(hand_headings(robot.plane, alpha, beta)))
+            assert np.linalg.norm(kinematics.forward(angles).position - target) <= LARGEST_ERROR_M
+
+
+def test_far_target_is_reached_in_one_step_if_need_be(robot, kinematics):
+    alpha, beta = np.array([0.0, 180.0]), np.array([90.0, 0.0])
+    targets = hand_targets(robot.plane, alpha, beta)
+    angles = kinematics.follow(targets, hand_headings(robot.plane, alpha, beta))
+    assert np.linalg.norm(kinematics.forward(angles[1]).position - targets[1]) <= LARGEST_ERROR_M
+
+
+def test_distance_out_of_reach_is_that_from_the_nearest_place(kinematics):
+    """Held against bounded least squares from 25 random postures."""
+    target, rng = np.array([0.0, 0.5, 0.05]), np.random.default_rng(0)
+    nearest = min(
+        np.linalg.norm(
+            least_squares(
+                lambda angles: kinematics.forward(angles).position - target,
+                rng.uniform(kinematics.lower, kinematics.upper),
+                bounds=(kinematics.lower, kinematics.upper),
+            ).fun
+        )
+        for _ in range(25)
+    )
+    with pytest.raises(OutOfReachError) as caught:
+        kinematics.settle(target, np.pi / 2)
+    assert caught.value.distance == pytest.approx(nearest, abs=1e-4)
 
 
 def test_target_out_of_reach_says_by_how_much(kinematics):
