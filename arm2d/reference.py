@@ -8,12 +8,13 @@ and would blow up a difference in the last bit to another behaviour.
 from __future__ import annotations
 
 from functools import cache
-from math import asin, atan2, cos, degrees, hypot, radians, sin, sqrt
+from math import asin, copysign, degrees, hypot, sqrt
 from typing import NamedTuple
 
 from arm2d import constants as c
 from arm2d.arithmetic import sigmoid
 from arm2d.controller import decode
+from arm2d.geometry import bearing_of, from_s2, offset_of, s2_pose, to_s2
 from arm2d.instructions import ACTION_CODES, OBJECT_CODES, ActionWord, Instruction
 from arm2d.readings import Readings
 
@@ -32,35 +33,26 @@ class Score(NamedTuple):
     steps: int
 
 
-def run_trial(
-    genotype, instruction: Instruction, alpha: float, discs, readings: Readings, changes=None
-) -> Score:
-    """Carry out one trial (spec section 8).
+def run_trial(genotype, instruction: Instruction, alpha, discs, readings: Readings, changes=None) -> Score:
+    """Carry out one trial (spec section 8) with a genotype [84].
 
-    Args:
-        genotype: [84].
-        instruction: What is scored, and heard unless the words change.
-        alpha: Angle of S1 at the start [deg].
-        discs: Three (x, y), blue, green and red [cm].
-        readings: How the paper is understood.
-        changes: (instruction heard first, instruction heard later, delay) of a transition test.
+    S1 starts at `alpha` [deg], the blue, green and red disc at three (x, y) [cm]. A transition test's
+    `changes` are (instruction heard first, instruction heard later, delay); scored is `instruction`.
     """
     r, target = readings, instruction.object
     think = _controller(genotype, r)
     discs, beta, sides = [tuple(each) for each in discs], c.BETA_MAX, [None, None, None]
     heard, later, delay = changes or (instruction, instruction, 0)
-    countdown = None
-    run = best = stretch = 0.0
+    countdown, run, best, stretch = None, 0.0, 0.0, 0.0
     goal = _goal(instruction.action, r)
-    first_offset = offset = _offset(alpha, discs[target])
+    first_offset = offset = offset_of(alpha, discs[target])
     for step in range(1, c.MAX_STEPS + 1):  # noqa: B007 - the last step's number is part of the score
         turn1, turn2 = think(_sense(alpha, beta, discs, sides, heard, r))
         new_alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
         new_beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))
         discs, sides = _touch(alpha, beta, new_alpha, new_beta, discs, sides, r.object_radius)
         turned, alpha, beta = new_alpha - alpha, new_alpha, new_beta
-
-        offset = _offset(alpha, discs[target])
+        offset = offset_of(alpha, discs[target])
         in_view = offset <= c.VIEW_HALF_WIDTH
         if in_view:
             stretch = max(stretch, 1.0 - beta / c.BETA_MAX)
@@ -82,9 +74,8 @@ def run_trial(
 def _controller(genotype, readings: Readings):
     """The CTRNN as a function from 18 inputs to the turns of S1 and S2 (eq. 1 to 3)."""
     net = decode(genotype, readings)
-    sensory, recurrent, motor = (
-        w[0].tolist() for w in (net.sensory_weights, net.recurrent_weights, net.motor_weights)
-    )
+    weights = net.sensory_weights, net.recurrent_weights, net.motor_weights
+    sensory, recurrent, motor = (each[0].tolist() for each in weights)
     tau, bias = net.decay_constants[0].tolist(), net.inter_biases[0].tolist()
     input_bias, motor_bias, gain = float(net.input_bias[0]), float(net.motor_bias[0]), float(net.gain[0])
     inter = range(c.N_INTER)
@@ -103,10 +94,8 @@ def _controller(genotype, readings: Readings):
             drive = words + touch + (right + middle + left) + bend
             y[j] += c.DT / tau[j] * (drive + _dot(recurrent, z, j, inter) - y[j])  # eq. 2
         z = [sigmoid(y[k] + bias[k]) for k in inter]
-        f22, f23, f24, f25 = (
-            sigmoid(_dot(motor, z, m, inter) + motor_bias) for m in range(c.N_MOTORS)
-        )  # eq. 3
-        return _turn(f22, f23, readings.turn_size), _turn(f24, f25, readings.turn_size)
+        f = [sigmoid(_dot(motor, z, m, inter) + motor_bias) for m in range(c.N_MOTORS)]  # eq. 3
+        return _turn(f[0], f[1], readings.turn_size), _turn(f[2], f[3], readings.turn_size)
 
     return think
 
@@ -121,16 +110,14 @@ def _dot(weights, values, j, indices) -> float:
 
 def _turn(go: float, way: float, size: float) -> float:
     """Size H(go - 0.5) sgn(0.5 - way)."""
-    if go <= 0.5 or way == 0.5:
-        return 0.0
-    return size if way < 0.5 else -size
+    return 0.0 if go <= 0.5 or way == 0.5 else copysign(size, 0.5 - way)
 
 
 def _sense(alpha, beta, discs, sides, heard: Instruction, r: Readings) -> list[float]:
     """I1 to I18 (spec section 4)."""
     sectors = [[False] * 3 for _ in range(3)]
     for disc, centre in enumerate(discs):
-        bearing, half = _bearing(centre), 0.0
+        bearing, half = bearing_of(centre), 0.0
         if r.object_vision == "any_part":
             half = degrees(asin(r.object_radius / hypot(*centre)))
         low, high = bearing - half - alpha, bearing + half - alpha
@@ -151,53 +138,26 @@ def _sense(alpha, beta, discs, sides, heard: Instruction, r: Readings) -> list[f
 def _touch(alpha0, beta0, alpha1, beta1, discs, sides, radius):
     """Carry, push or leave every disc while the arm moves in four sub-steps (spec section 3)."""
     discs, sides = list(discs), list(sides)
-    pose = _s2_pose(alpha0, beta0)
+    pose = s2_pose(alpha0, beta0)
     for k in range(1, c.SUB_STEPS + 1):
         last, part = pose, k / c.SUB_STEPS
-        pose = _s2_pose(alpha0 + (alpha1 - alpha0) * part, beta0 + (beta1 - beta0) * part)
+        pose = s2_pose(alpha0 + (alpha1 - alpha0) * part, beta0 + (beta1 - beta0) * part)
         for disc, centre in enumerate(discs):
-            (u0, v0), (u, v) = _to_s2(last, centre), _to_s2(pose, centre)
+            (u0, v0), (u, v) = to_s2(last, centre), to_s2(pose, centre)
             beyond = max(0.0, u - c.S2_LENGTH, -u)
             gap = hypot(beyond, v)
-            if gap < radius - c.PENETRATION_TOLERANCE:
-                if sides[disc]:
-                    discs[disc] = _from_s2(pose, u0, v0)
-                else:
-                    sides[disc] = RIGHT if v0 < 0.0 else LEFT
-                    v = sqrt(radius * radius - beyond * beyond) * (-1.0 if v0 < 0.0 else 1.0)
-                    discs[disc] = _from_s2(pose, u, v)
+            hit = gap < radius - c.PENETRATION_TOLERANCE
+            if hit and sides[disc]:
+                discs[disc] = from_s2(pose, u0, v0)
+            elif hit:
+                sides[disc] = RIGHT if v0 < 0.0 else LEFT
+                v = sqrt(radius * radius - beyond * beyond)
+                discs[disc] = from_s2(pose, u, -v if v0 < 0.0 else v)
             elif gap <= radius + c.TOUCH_TOLERANCE:
                 sides[disc] = RIGHT if v < 0.0 else LEFT
             else:
                 sides[disc] = None
     return discs, sides
-
-
-def _s2_pose(alpha, beta):
-    """J2's position and S2's unit vector."""
-    a, b = radians(alpha), radians(alpha + beta)
-    return c.S1_LENGTH * cos(a), c.S1_LENGTH * sin(a), cos(b), sin(b)
-
-
-def _to_s2(pose, point):
-    """(u, v): along S2 from J2, and to its left."""
-    x, y, along_x, along_y = point[0] - pose[0], point[1] - pose[1], pose[2], pose[3]
-    return x * along_x + y * along_y, y * along_x - x * along_y
-
-
-def _from_s2(pose, u, v):
-    return pose[0] + u * pose[2] - v * pose[3], pose[1] + u * pose[3] + v * pose[2]
-
-
-def _bearing(point) -> float:
-    """Direction from J1 in [-90, 270) degrees."""
-    return (degrees(atan2(point[1], point[0])) + 90.0) % 360.0 - 90.0
-
-
-def _offset(alpha: float, point) -> float:
-    """d, the smaller angle between S1 and the bearing of a point [deg]."""
-    away = abs(_bearing(point) - alpha)
-    return min(away, 360.0 - away)
 
 
 def _is_good(action: ActionWord, offset: float, side, turned: float, r: Readings) -> bool:
@@ -232,10 +192,8 @@ def _score(action, first_offset, offset, collided, best, beta, stretch, steps, r
     full = r.move_angle if action is ActionWord.MOVE else float(c.GOOD_STEPS_FOR_SUCCESS)
     share = 1.0 if best >= full - c.THRESHOLD_TOLERANCE else best / full
     f2 = share if f1 == 1.0 else 0.0
-    f3 = 0.0
-    if action in (ActionWord.TOUCH, ActionWord.MOVE):
-        f3 = stretch if r.f3_time == "best" else (1.0 - beta / c.BETA_MAX if in_view else 0.0)
-    success = f1 == f2 == 1.0
-    if r.success == "f1_f2_f3" and action in (ActionWord.TOUCH, ActionWord.MOVE):
-        success = success and f3 > 0.99
-    return Score(f1, f2, f3, success, steps)
+    stretches = action in (ActionWord.TOUCH, ActionWord.MOVE)
+    at_end = 1.0 - beta / c.BETA_MAX if in_view else 0.0
+    f3 = 0.0 if not stretches else stretch if r.f3_time == "best" else at_end
+    strict = r.success == "f1_f2_f3" and stretches
+    return Score(f1, f2, f3, f1 == f2 == 1.0 and (f3 > 0.99 or not strict), steps)
