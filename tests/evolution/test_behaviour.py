@@ -71,10 +71,14 @@ def test_principal_plane_finds_the_plane_of_the_points():
 
 def test_figures_are_drawn_for_agents_that_do_nothing():
     still = record_behaviour(np.full(84, 0.5), INDICATE, READINGS, per_area=1)
-    trajectories_figure(still, READINGS, "agent")
-    activity_figure(still, "agent")
-    variance_figure(shares_by_event(still), "agent")
-    state_space_figure(still, "agent")
+    assert not still.success.any()
+    figures = [
+        trajectories_figure(still, READINGS, "agent"),
+        activity_figure(still, "agent"),
+        variance_figure(shares_by_event(still), "agent"),
+        state_space_figure(still, "agent"),
+    ]
+    assert all(figure.axes for figure in figures)
 
 
 def test_trajectories_name_every_instruction_and_the_never_met(behaviour):

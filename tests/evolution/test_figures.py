@@ -81,7 +81,8 @@ def test_running_median_passes_over_outliers_and_keeps_the_length():
 
 def test_a_single_generation_can_be_drawn(finished_run):
     history = recorded_history(RunFolder.open(finished_run))[:1]
-    fitness_curve(history, Condition.WITH_INDICATE, "one")
+    (axes,) = fitness_curve(history, Condition.WITH_INDICATE, "one").axes
+    assert history.best[0] in [line.get_ydata()[0] for line in axes.lines]
 
 
 def test_figures_are_written_as_png_and_svg_with_the_same_bytes_each_time(evaluation, tmp_path):
