@@ -45,6 +45,10 @@ class Readings:
     start_areas: Literal["between", "bounds"] = "between"
     """Only in Fig. 1b. S1 starts midway between neighbouring sectors, or at its bounds."""
 
+    start_half_width: float = 4.0
+    """Only in Fig. 1b. [deg]; half the width of the start areas between the sectors. From 5 on, an object at
+    the edge of the default sectors can be in view at the start."""
+
     sector_centres: tuple[float, float, float] = (30.0, 90.0, 150.0)
     """Only in Fig. 1b. [deg]; bearing of the middle of the blue, green and red sector."""
 
@@ -112,7 +116,7 @@ class Readings:
             if name not in known:
                 raise ValueError(f"unknown reading {name!r}; there are {', '.join(known)}")
             _check_type(name, value)
-        return replace(self, **values)
+        return replace(self, **{name: _as_default(name, value) for name, value in values.items()})
 
     def to_mapping(self) -> dict[str, Any]:
         """Every field as a plain value, ready for a config file."""
@@ -148,7 +152,8 @@ class Readings:
             return (-30.0, 0.0), (180.0, 210.0)
         blue, green, red = self.sector_centres
         right, left = (blue + green) / 2, (green + red) / 2
-        return (right - 4.0, right + 4.0), (left - 4.0, left + 4.0)
+        half = self.start_half_width
+        return (right - half, right + half), (left - half, left + half)
 
 
 def choices() -> dict[str, tuple[str, ...]]:
@@ -161,6 +166,7 @@ def _check_geometry(readings: Readings) -> None:
     """Refuse worlds in which the experiment makes no sense."""
     _check_interval("object_radius", readings.object_radius, 0.1, 11.8)
     _check_interval("sector_half_width", readings.sector_half_width, 0.1, 30.0)
+    _check_interval("start_half_width", readings.start_half_width, 0.0, 30.0)
     centres = readings.sector_centres
     if len(centres) != 3 or not all(-15.0 <= a < b <= 195.0 for a, b in pairwise(centres)):
         raise ValueError(
@@ -186,6 +192,13 @@ def _check_type(name: str, value: Any) -> None:
         fits = isinstance(value, (list, tuple)) and all(isinstance(v, (int, float)) for v in value)
     if not fits:
         raise ValueError(f"reading {name} = {value!r} is not of the kind of its default {default!r}")
+
+
+def _as_default(name: str, value: Any) -> Any:
+    """A number as the kind of number the default is, so that 8 and 8.0 are written alike."""
+    if isinstance(value, (list, tuple)):
+        return tuple(float(each) for each in value)
+    return float(value) if isinstance(getattr(Readings, name), float) else value
 
 
 # `printed` takes the paper at its word wherever the word can run. The default does so already but

@@ -24,6 +24,12 @@ def test_printed_preset_lets_ignore_run_on_and_nothing_else():
 def test_start_areas_follow_the_sectors():
     assert Readings(sector_centres=(45.0, 90.0, 135.0)).start_intervals == ((63.5, 71.5), (108.5, 116.5))
     assert Readings(start_areas="bounds").start_intervals == ((-30.0, 0.0), (180.0, 210.0))
+    assert Readings(start_half_width=0.0).start_intervals == ((60.0, 60.0), (120.0, 120.0))
+
+
+def test_whole_numbers_are_written_like_their_fractions():
+    whole = Readings.from_mapping({"object_radius": 8, "sector_centres": [45, 90, 135]})
+    assert repr(whole) == repr(Readings(object_radius=8.0, sector_centres=(45.0, 90.0, 135.0)))
 
 
 def test_turn_is_the_printed_one_to_a_tenth_of_a_picodegree():
