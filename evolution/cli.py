@@ -16,6 +16,7 @@ from tyro.conf import subcommand
 from arm2d import Readings
 from evolution.commands.analyse import Analyse
 from evolution.commands.behaviour import BehaviourCommand
+from evolution.commands.doctor import Doctor
 from evolution.commands.evaluate import Evaluate
 from evolution.commands.evolve import Evolve, UncheckedReadings
 from evolution.commands.lineage import LineageCommand
@@ -37,6 +38,7 @@ Command = (
     Evolve
     | Evaluate
     | BehaviourCommand
+    | Doctor
     | LineageCommand
     | Plot
     | Port
@@ -82,6 +84,7 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
     commands = (
         Annotated[Evolve, subcommand("evolve", default=Evolve(readings=readings))]
         | Annotated[BehaviourCommand, subcommand("behaviour")]
+        | Annotated[Doctor, subcommand("doctor")]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[LineageCommand, subcommand("lineage")]
         | Annotated[Plot, subcommand("plot")]

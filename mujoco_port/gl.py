@@ -15,6 +15,7 @@ from typing import Final
 
 VARIABLE: Final = "MUJOCO_GL"
 BACK_ENDS: Final = ("egl", "osmesa")
+PACKAGES: Final = "libegl1 libgl1 libgl1-mesa-dri"  # Debian's, for EGL in software
 PROBE_TIMEOUT_S: Final = 60.0
 PROBE: Final = """
 import mujoco
@@ -55,20 +56,17 @@ def choose_back_end() -> str:
             return name
     raise NoRenderingError(
         "neither EGL nor OSMesa can draw here without a screen; "
-        "run: apt-get install libegl1 libgl1 libgl1-mesa-dri"
+        f"run: apt-get install {PACKAGES}, or `wordarm doctor` to see why"
     )
 
 
 @cache
 def works(back_end: str) -> bool:
     """Whether a back end draws a picture, tried in a process of its own."""
-    environment = {**os.environ, VARIABLE: back_end}
-    if back_end == "osmesa":
-        environment["PYOPENGL_PLATFORM"] = "osmesa"
     try:
         probe = subprocess.run(  # noqa: S603 - our own interpreter and text
             [sys.executable, "-c", PROBE],
-            env=environment,
+            env={**os.environ, **probe_environment(back_end)},
             stdin=subprocess.DEVNULL,
             capture_output=True,
             timeout=PROBE_TIMEOUT_S,
@@ -77,3 +75,9 @@ def works(back_end: str) -> bool:
     except subprocess.TimeoutExpired:
         return False
     return probe.returncode == 0
+
+
+def probe_environment(back_end: str) -> dict[str, str]:
+    """The variables that make MuJoCo use a back end."""
+    platform = {"PYOPENGL_PLATFORM": back_end} if back_end in BACK_ENDS else {}
+    return {VARIABLE: back_end, **platform}
