@@ -1,4 +1,4 @@
-"""The paper's figures from our runs: Fig. 3, Table II as bars, Fig. 4, generalisers over time (section VII).
+"""The paper's figures from our runs: Fig. 3, Table II as bars, Fig. 4 (section VII).
 
 One function per figure; they draw what `evolution.analysis` has computed.
 """
@@ -13,17 +13,16 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from arm2d import Condition
 from evolution import published
-from evolution.analysis import ConditionResults, Results
 from evolution.figures import FAINT, INK, STYLE, running_median
+from evolution.figures_generalisers import generalisers_figure
+from evolution.report_text import TITLES
+from evolution.results import ConditionResults, Results
 from evolution.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
 from evolution.transitions import Transition, action_transitions, object_transitions
 
-TITLES: Final = {Condition.WITH_INDICATE: "With-Indicate", Condition.WITH_IGNORE: "With-Ignore"}
 CLASS_COLOURS: Final = {AgentClass.FULL: "#CC79A7", AgentClass.PARTIAL: "#E69F00", AgentClass.NONE: "#7A7A7A"}
 # From pale sand (never) to deep teal (nearly always), lightness falling evenly.
 CATEGORY_MAP: Final = LinearSegmentedColormap.from_list(
@@ -94,47 +93,6 @@ def _draw_bars(axes: Axes, ours: np.ndarray, theirs: np.ndarray) -> None:
     axes.spines[["top", "right", "bottom"]].set_visible(False)
 
 
-def generalisers_figure(results: Results) -> Figure:
-    """How many of the five best are fully or partially compositional, for each late generation and run."""
-    with mpl.rc_context(STYLE):
-        rows = sum(len(each.runs) for each in results.conditions.values())
-        figure = Figure(figsize=(9.2, 1.3 + 0.27 * max(rows, 1)), layout="constrained")
-        panels = figure.subplots(
-            len(results.conditions), 1, sharex=True, squeeze=False,
-            height_ratios=[max(len(each.runs), 1) for each in results.conditions.values()],
-        )[:, 0]  # fmt: skip
-        for axes, (condition, each) in zip(panels, results.conditions.items(), strict=True):
-            _draw_generalisers(axes, each)
-            axes.set_title(TITLES[condition], loc="left", fontweight="bold")
-        panels[-1].set_xlabel("generation")
-        handles = [
-            Line2D([], [], color=CLASS_COLOURS[kind], lw=5, label=str(kind))
-            for kind in (AgentClass.FULL, AgentClass.PARTIAL)
-        ]
-        figure.legend(handles=handles, loc="outside upper right", frameon=False, ncols=2, fontsize=8.5)
-    return figure
-
-
-def _draw_generalisers(axes: Axes, results: ConditionResults) -> None:
-    from evolution.subtasks import classify
-
-    for row, successes in enumerate(results.successes):
-        classes = classify(successes.reshape(-1, successes.shape[-1]), results.condition)
-        for kind in (AgentClass.PARTIAL, AgentClass.FULL):
-            counts = classes[kind].reshape(successes.shape[:2]).sum(axis=1)
-            some = counts > 0
-            axes.vlines(
-                results.generations[some], row + 0.42 - 0.16 * counts[some], row + 0.42,
-                color=CLASS_COLOURS[kind], lw=0.6 if kind is AgentClass.PARTIAL else 1.6,
-            )  # fmt: skip
-    axes.set_yticks(range(len(results.runs)), [f"seed {seed}" for seed in results.seeds], fontsize=8)
-    axes.set_ylim(len(results.runs) - 0.5, -0.6)
-    if len(results.generations):
-        axes.set_xlim(results.generations[0], results.generations[-1] + 1)
-    axes.tick_params(axis="y", length=0)
-    axes.spines[["top", "right", "left"]].set_visible(False)
-
-
 def transitions_figure(results: Results) -> Figure:
     """Fig. 4: mean success in every transition, class by class; how many agents pass stands in the legend."""
     with mpl.rc_context(STYLE):
@@ -189,7 +147,7 @@ def _category_label(category: int) -> str:
 
 
 def all_figures(results: Results) -> Mapping[str, Figure]:
-    """Every figure of this file, by the name of its file."""
+    """All figures of an experiment, by the name of their files."""
     return {
         "fitness": fitness_figure(results),
         "table-ii": table_figure(results),

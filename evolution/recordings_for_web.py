@@ -12,7 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 from arm2d import TrialRecord
-from evolution.analysis import Agent
+from evolution.notable import Agent
 from evolution.recording import record_instruction
 from evolution.sources import find_source
 

@@ -20,22 +20,19 @@ from matplotlib.colors import to_hex
 from arm2d import NON_EXPERIENCED, Readings
 from arm2d.drawing import OBJECT_COLOURS
 from evolution import meta
-from evolution.analysis import Agent, ConditionResults, Results
 from evolution.figures import SUCCESS_MAP
 from evolution.figures_paper import all_figures
 from evolution.folder import META
+from evolution.generaliser_text import generalisers_sentence
+from evolution.notable import Agent, best_agent
 from evolution.postevaluation import TRIALS
 from evolution.recordings_for_web import recordings_of
 from evolution.report_figures import figure_uri, file_uri
+from evolution.report_lines import main_lines
 from evolution.report_sentences import result_sentences, standing_of_best
-from evolution.report_tables import (
-    TITLES,
-    category_tables,
-    comparison_rows,
-    departures_in_size,
-    main_lines,
-    run_rows,
-)
+from evolution.report_tables import category_tables, comparison_rows, departures_in_size, run_rows
+from evolution.report_text import TITLES
+from evolution.results import ConditionResults, Results
 from evolution.stage_times import stage_times
 from evolution.standing import standing_of
 from evolution.storage import make_folder, write_atomically
@@ -80,7 +77,7 @@ def render(results: Results, home: Path) -> str:
 def _content(results: Results, home: Path) -> dict[str, Any]:
     """Everything the template shows."""
     shown = replace(results, conditions={c: e for c, e in results.conditions.items() if len(e.runs)})
-    best = [(each, each.best_agent()) for each in shown.conditions.values()]
+    best = [(each, best_agent(each)) for each in shown.conditions.values()]
     agents = [_agent(each, agent, results.experiment.path) for each, agent in best if agent is not None]
     figures = all_figures(shown) if shown.conditions else {}
     experiment = results.experiment
@@ -92,6 +89,7 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "titles": [TITLES[each] for each in shown.conditions],
         "main_lines": main_lines(shown),
         "category_tables": category_tables(shown),
+        "generalisers": [generalisers_sentence(each) for each in shown.conditions.values()],
         "run_rows": run_rows(shown),
         "comparison_rows": comparison_rows(results),
         "standings": [standing_of(run.path, run.config) for run in experiment.all_runs],

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from arm2d import NON_EXPERIENCED, Condition
 from evolution import published
-from evolution.analysis import ConditionResults, Results
+from evolution.notable import best_agent
 from evolution.postevaluation import TRIALS
-from evolution.report_tables import TITLES, of, p_value, percent, runs_with_generalisers
+from evolution.report_lines import runs_with_generalisers
+from evolution.report_text import TITLES, of, p_value, percent
+from evolution.results import ConditionResults, Results
 from evolution.subtasks import AgentClass
 
 # A difference whose p-value is smaller is called one.
@@ -51,7 +53,7 @@ def _generalisation(shown: dict[Condition, ConditionResults]) -> str:
 
 
 def _best(condition: Condition, each: ConditionResults) -> str:
-    agent = each.best_agent()
+    agent = best_agent(each)
     if agent is None:
         return f"{TITLES[condition]} has no agent"
     successes = dict(zip(condition.instructions, map(int, agent.successes), strict=True))

@@ -10,11 +10,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
-from evolution.analysis import Results
 from evolution.config import RunConfig
 from evolution.folder import CONFIG, RunFolder, refuse_other
 from evolution.jobs import Failure, Watcher, run_jobs
 from evolution.lock import RunInUseError, locked
+from evolution.notable import best_agent
+from evolution.results import Results
 from evolution.standing import Pace, Standing, pace_of, standing_of
 from evolution.workers import Job
 
@@ -100,7 +101,7 @@ def agent_chains(results: Results, folder: Path) -> list[list[Job]]:
     """What is still to be drawn of the best agent of each condition: its ancestors, and how it does it."""
     chains = []
     for condition, each in results.conditions.items():
-        if (agent := each.best_agent()) is None:
+        if (agent := best_agent(each)) is None:
             continue
         path, stem = agent.run.path, f"generation-{agent.generation:06d}-rank-{agent.rank}"
         name, log = f"{condition}, its best agent", folder / LOGS / f"{condition}-best-agent.log"

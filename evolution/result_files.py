@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from evolution import published
-from evolution.analysis import ConditionResults, Results, interval_of_mean
+from evolution.analysis import interval_of_mean
 from evolution.figures import save_figure
 from evolution.figures_paper import all_figures
+from evolution.generaliser_text import generalisers_sentence
+from evolution.result_rows import (
+    generaliser_rows,
+    genotype_rows,
+    run_rows,
+    table_ii_rows,
+    test_rows,
+    to_csv,
+    transition_rows,
+)
+from evolution.results import ConditionResults, Results
 from evolution.storage import make_folder, write_arrays, write_atomically
-from evolution.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
 
 
 def write_results(results: Results, folder: Path) -> list[Path]:
@@ -25,6 +31,8 @@ def write_results(results: Results, folder: Path) -> list[Path]:
         "runs.csv": run_rows(results),
         "transitions.csv": transition_rows(results),
         "tests.csv": test_rows(results),
+        "generalisers.csv": generaliser_rows(results),
+        "generaliser-genotypes.csv": genotype_rows(results),
     }
     paths = []
     for name, rows in tables.items():
@@ -35,57 +43,6 @@ def write_results(results: Results, folder: Path) -> list[Path]:
     for name, figure in all_figures(results).items():
         paths += save_figure(figure, folder / name)
     return paths
-
-
-def table_ii_rows(results: Results) -> Iterable[Sequence[object]]:
-    """Agents by category and sub-task, published and ours."""
-    yield ("condition", "category", *(f"{whose} {name}" for name in SUBTASKS for whose in ("paper", "ours")))
-    for condition, each in results.conditions.items():
-        theirs = published.TABLE_II[condition]
-        for category in range(N_CATEGORIES):
-            pairs = zip(theirs[category], each.counts[category], strict=True)
-            yield (str(condition), category, *(int(n) for pair in pairs for n in pair))
-
-
-def run_rows(results: Results) -> Iterable[Sequence[object]]:
-    """One row per run."""
-    kinds = [str(kind) for kind in AgentClass]
-    tops = [f"share in category 10, sub-task {name}" for name in SUBTASKS]
-    yield ("condition", "seed", "plateau", "first generation that solved all trials", *kinds, *tops)
-    for condition, each in results.conditions.items():
-        shares = np.stack([each.share_in_top(name) for name in SUBTASKS], axis=1)
-        for run, seed in enumerate(each.seeds):
-            members = [int(each.members[kind][run]) for kind in AgentClass]
-            first = int(each.first_solved[run])
-            yield (
-                str(condition), int(seed), f"{each.plateau[run]:.4f}", first if first >= 0 else "never",
-                *members, *(f"{share:.4f}" for share in shares[run]),
-            )  # fmt: skip
-
-
-def transition_rows(results: Results) -> Iterable[Sequence[object]]:
-    """Agents that pass the transition tests, class by class."""
-    yield ("condition", "class", "agents", "pass action", "pass object", "runs action", "runs object")
-    for condition, each in results.conditions.items():
-        for kind, outcome in each.transitions.items():
-            yield (
-                str(condition), str(kind), outcome.agents, outcome.action_passed, outcome.object_passed,
-                outcome.runs_action, outcome.runs_object,
-            )  # fmt: skip
-
-
-def test_rows(results: Results) -> Iterable[Sequence[object]]:
-    """Comparisons between the conditions: runs as the unit, and the paper's kind of test."""
-    yield (
-        "compared", "With-Indicate", "With-Ignore", "difference", "95 % low", "95 % high",
-        "Mann-Whitney p", "permutation p", "Cliff's delta", "Wilcoxon p as published",
-    )  # fmt: skip
-    for name, each in results.comparisons.items():
-        numbers = (
-            *each.means, each.difference, *each.interval, each.mann_whitney_p, each.permutation_p,
-            each.cliffs_delta, results.published_tests[name][1],
-        )  # fmt: skip
-        yield (name, *(f"{number:.4g}" for number in numbers))
 
 
 def arrays_of(results: Results) -> dict[str, np.ndarray]:
@@ -101,22 +58,18 @@ def summary(results: Results) -> str:
     """The result in a few sentences."""
     sentences = []
     for condition, each in results.conditions.items():
+        if not each.runs:
+            sentences.append(f"{condition}: no run can be analysed.")
+            continue
         share = each.share_in_top("I")
-        low, high = interval_of_mean(share) if len(share) else (0.0, 0.0)
-        full = int((each.generalisers.sum(axis=1) > 0).sum())
+        low, high = interval_of_mean(share)
         top = f"{100 * share.mean():.1f} % of the agents [{100 * low:.1f}, {100 * high:.1f}]"
         sentences.append(
             f"{condition}: {each.at_plateau} of {len(each.runs)} runs end at the largest fitness; {top} "
-            f"are in category 10 of sub-task I; runs with fully compositional agents: {full}."
+            "are in category 10 of sub-task I."
         )
+        sentences.append(generalisers_sentence(each))
     return "\n".join([*sentences, *results.missing])
-
-
-def to_csv(rows: Iterable[Sequence[object]]) -> str:
-    """Rows as comma-separated lines."""
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue()
 
 
 def _condition_arrays(each: ConditionResults) -> dict[str, np.ndarray]:

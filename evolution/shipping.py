@@ -14,9 +14,10 @@ from pathlib import Path
 import numpy as np
 
 from arm2d import Condition
-from evolution.analysis import Agent, Results
+from evolution.notable import Agent, best_agent, best_specialist
 from evolution.postevaluation import TRIALS
 from evolution.recorded import recorded_generation
+from evolution.results import Results
 from evolution.storage import make_folder, write_arrays
 
 
@@ -25,9 +26,9 @@ def notable_agents(results: Results) -> dict[str, Agent]:
     indicate = results.conditions.get(Condition.WITH_INDICATE)
     ignore = results.conditions.get(Condition.WITH_IGNORE)
     found = {
-        "best-generaliser": indicate and indicate.best_agent(),
-        "best-specialist": indicate and indicate.best_specialist(),
-        "with-ignore": ignore and ignore.best_agent(),
+        "best-generaliser": indicate and best_agent(indicate),
+        "best-specialist": indicate and best_specialist(indicate),
+        "with-ignore": ignore and best_agent(ignore),
     }
     return {name: agent for name, agent in found.items() if agent is not None}
 

@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 # Above so many ways of sharing out the runs, permutations are drawn instead of counted.
 LARGEST_EXACT: Final = 200_000
 BOOTSTRAP_SAMPLES: Final = 10_000
+# Up to so many runs, all choices of signs are counted.
+MOST_FLIPPED: Final = 16
 
 
 @dataclass(frozen=True)
@@ -85,6 +87,23 @@ def permutation_test(scores: NDArray[np.float64], n: int, rng: np.random.Generat
     observed = abs(scores[:n].sum() - n * scores.mean())
     extreme = np.count_nonzero(off >= observed - 1e-12 * max(1.0, np.abs(scores).max()))
     return float(extreme / len(chosen) if exact else (extreme + 1) / (len(chosen) + 1))
+
+
+def sign_flip_test(differences: NDArray[np.float64]) -> float:
+    """Two-sided p that numbers, one per run, lie around 0.
+
+    It is the share of all choices of their signs whose sum is at least as far off, counted in full up to
+    16 runs; beyond, Student's t stands in for it.
+    """
+    n = len(differences)
+    if n > MOST_FLIPPED:
+        from scipy.stats import t
+
+        spread = differences.std(ddof=1) / n**0.5
+        return float(2 * t.sf(abs(differences.mean()) / spread, n - 1)) if spread else 0.0
+    signs = 1 - 2 * ((np.arange(2**n)[:, np.newaxis] >> np.arange(n)) & 1)  # [2^n, n]
+    off = np.abs(signs @ differences)
+    return float((off >= abs(differences.sum()) - 1e-12).mean())
 
 
 def midranks(values: NDArray[np.float64]) -> NDArray[np.float64]:

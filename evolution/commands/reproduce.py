@@ -17,10 +17,10 @@ from evolution.config import RunConfig
 from evolution.settings import Settings
 
 if TYPE_CHECKING:
-    from evolution.analysis import Results
     from evolution.interrupt import StopRequest
     from evolution.jobs import Failure
     from evolution.reproduce import Plan
+    from evolution.results import Results
     from evolution.workers import Job
 
 MOST_RUNS: Final = 10_000

@@ -15,12 +15,14 @@ from evolution import published
 from evolution.analysis import analyse
 from evolution.config import RunConfig
 from evolution.experiment import open_experiment
+from evolution.notable import best_agent
 from evolution.postevaluation import post_evaluate
 from evolution.recordings_for_web import compact
 from evolution.report import render, write_report
 from evolution.report_figures import file_uri
 from evolution.report_sentences import result_sentences
-from evolution.report_tables import comparison_rows, p_value, percent, run_rows
+from evolution.report_tables import comparison_rows, run_rows
+from evolution.report_text import p_value, percent
 from evolution.run import evolve
 from evolution.settings import Settings
 from evolution.solving import solved_trials
@@ -220,7 +222,7 @@ def test_films_beside_the_runs_are_linked(results, experiment):
 
 
 def test_figures_drawn_for_the_best_agent_are_taken_along(results, experiment):
-    agent = results.conditions[Condition.WITH_INDICATE].best_agent()
+    agent = best_agent(results.conditions[Condition.WITH_INDICATE])
     folder = agent.run.path / "lineage"
     folder.mkdir()
     stem = f"generation-{agent.generation:06d}-rank-{agent.rank}"

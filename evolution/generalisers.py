@@ -1,0 +1,164 @@
+"""Fully compositional agents over time: where they stand among the five best, and how long they last.
+
+Agents are post-evaluated anew in every generation, so one genotype may count as fully compositional in
+one generation and not in the next. Three measures of duration are kept apart:
+
+    spell     generations in a row in which the run holds at least one fully compositional agent
+    stay      generations in which one genotype is among the five best (an elite is copied unchanged)
+    line      generations in a row through which the property goes from parent to child
+
+Axes: L late generations, 5 ranks, N fully compositional agents, D distinct genotypes of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evolution.algorithm import rank as ranking
+from evolution.folder import RunFolder
+from evolution.history import History
+from evolution.postevaluation import late_spans
+from evolution.settings import N_BEST
+from evolution.statistics import sign_flip_test
+
+# Mean rank of an agent drawn at random from the five best, 0 for the best.
+CHANCE_RANK: Final = (N_BEST - 1) / 2
+
+
+@dataclass(frozen=True)
+class Generalisers:
+    """The fully compositional agents of one run.
+
+    Attributes:
+        counts: [L], how many of the five best.
+        generations: [N] and
+        ranks: [N], which agents; rank 0 is the generation's best.
+        spells: Lengths of the spells, in order.
+        first: [D], generation in which each genotype was first among the five best,
+        stays: [D], its stay,
+        verdicts: [D], in how many generations of its stay it was found fully compositional.
+        longest_line: Length of the longest line.
+    """
+
+    counts: NDArray[np.int64]
+    generations: NDArray[np.int64]
+    ranks: NDArray[np.int64]
+    spells: NDArray[np.int64]
+    first: NDArray[np.int64]
+    stays: NDArray[np.int64]
+    verdicts: NDArray[np.int64]
+    longest_line: int
+
+    def __len__(self) -> int:
+        return len(self.ranks)
+
+    @property
+    def by_rank(self) -> NDArray[np.int64]:
+        """How many at each rank, [5]."""
+        return np.bincount(self.ranks, minlength=N_BEST)
+
+
+def generalisers_of(
+    run: RunFolder, generations: NDArray[np.integer], members: NDArray[np.bool_]
+) -> Generalisers:
+    """The fully compositional agents of a run.
+
+    Args:
+        run: The run; its files are read only if there are such agents.
+        generations: [L], the late generations.
+        members: [L, 5], which agents are fully compositional.
+
+    Raises:
+        DamagedFileError: If a part of the run is damaged.
+    """
+    rows, ranks = np.nonzero(members)
+    counts = members.sum(axis=1)
+    first = stays = verdicts = np.empty(0, np.int64)
+    longest = 0
+    if len(rows):
+        history = _late_history(run)
+        first, stays, verdicts = _stays(history.best_genotypes, members)
+        indices = np.stack([ranking(fitness)[:N_BEST] for fitness in history.fitness])
+        longest = longest_line(indices, history.parents, members)
+    return Generalisers(
+        counts=counts,
+        generations=generations[rows].astype(np.int64),
+        ranks=ranks,
+        spells=spell_lengths(counts > 0),
+        first=generations[first].astype(np.int64),
+        stays=stays,
+        verdicts=verdicts,
+        longest_line=longest,
+    )
+
+
+def spell_lengths(held: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Lengths of the stretches of True, in order."""
+    bounds = np.flatnonzero(np.diff(np.concatenate([[False], held, [False]])))
+    return bounds[1::2] - bounds[::2]
+
+
+def longest_line(
+    indices: NDArray[np.integer], parents: NDArray[np.integer], members: NDArray[np.bool_]
+) -> int:
+    """The most generations in a row through which an unbroken line of parent and child consists of members.
+
+    Args:
+        indices: [L, 5], where the five best stand in their generations.
+        parents: [L, P], indices into the generation before.
+        members: [L, 5], who counts.
+    """
+    lengths: dict[int, int] = {}  # of the lines that end in the generation before, by index
+    longest = 0
+    for row, who in enumerate(members):
+        own = indices[row, who]
+        lengths = {int(each): 1 + lengths.get(int(parents[row, each]), 0) for each in own}
+        longest = max([longest, *lengths.values()])
+    return longest
+
+
+def mean_rank_against_chance(runs: Sequence[Generalisers]) -> tuple[float, float]:
+    """(mean over runs of their agents' mean rank, two-sided p against chance); NaN without such an agent.
+
+    The run is the unit: within one, agents are relatives. Chance is `CHANCE_RANK`; an exact sign-flip test
+    over runs cannot reach 0.05 with fewer than six runs.
+    """
+    means = np.array([each.ranks.mean() for each in runs if len(each)])
+    if not len(means):
+        return float("nan"), float("nan")
+    return float(means.mean()), sign_flip_test(means - CHANCE_RANK)
+
+
+def _stays(
+    genotypes: NDArray[np.float64], members: NDArray[np.bool_]
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """First row, stay and verdicts of each genotype that was ever a member, each [D], by first row.
+
+    Args:
+        genotypes: [L, 5, 84].
+        members: [L, 5].
+    """
+    flat = genotypes.reshape(-1, genotypes.shape[-1])
+    _, versions = np.unique(flat, axis=0, return_inverse=True)
+    versions = versions.reshape(members.shape)
+    found = np.unique(versions[members])
+    present = (versions[np.newaxis] == found[:, np.newaxis, np.newaxis]).any(axis=2)  # [D, L]
+    verdicts = ((versions[np.newaxis] == found[:, np.newaxis, np.newaxis]) & members).sum(axis=(1, 2))
+    first, stays = present.argmax(axis=1), present.sum(axis=1)
+    order = np.lexsort([found, first])
+    return first[order], stays[order], verdicts[order]
+
+
+def _late_history(run: RunFolder) -> History:
+    """The late generations of a run."""
+    first = late_spans(run)[0].start
+    parts = []
+    for span in run.spans:
+        if span.stop > first:
+            parts.append(run.read_part(span)[max(first - span.start, 0) :])
+    return History.join(parts)

@@ -1,0 +1,133 @@
+"""The main table of the report: everything the paper gives a number or a word for, beside ours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from types import MappingProxyType
+from typing import Final
+
+import numpy as np
+
+from arm2d import Condition
+from evolution import published
+from evolution.generaliser_text import longest_spell, rank_of_generalisers
+from evolution.report_text import NOT_GIVEN, Line, of, percent
+from evolution.results import ConditionResults, Results
+from evolution.subtasks import SUBTASKS, AgentClass
+
+SUBTASK_WORDS: Final = MappingProxyType(
+    {
+        "I": "the seven experienced instructions",
+        "II": "these and MOVE Blue",
+        "III": "these and TOUCH Green",
+        "IV": "all nine",
+    }
+)
+# Fig. 4 in the paper's words (section VII): which agents of a class pass the action, the object transition.
+PUBLISHED_TRANSITIONS: Final = MappingProxyType(
+    {
+        Condition.WITH_INDICATE: {
+            AgentClass.FULL: ("most", "none"),
+            AgentClass.PARTIAL: ("some", "none"),
+            AgentClass.NONE: ("some", "none"),
+        },
+        Condition.WITH_IGNORE: {
+            AgentClass.FULL: ("none", NOT_GIVEN),
+            AgentClass.PARTIAL: ("none", "some"),
+            AgentClass.NONE: ("none", "some"),
+        },
+    }
+)
+
+
+def main_lines(results: Results) -> list[Line]:
+    """Everything the paper gives a number or a word for, but Table II's other categories."""
+    shown = list(results.conditions.items())
+
+    def line(what: str, pair) -> Line:
+        return Line(what, tuple(pair(condition, each) for condition, each in shown))
+
+    lines = [
+        line("runs that end at the largest fitness, 18/7", _plateau_runs),
+        line("best fitness at the end of a run", _plateau),
+        line("runs in which one genotype solved all 28 trials", _solved),
+        line("runs with fully compositional agents", _runs_with_generalisers),
+        line("most of them among the five best of a generation", _most_generalisers),
+        line("their mean rank among the five best, from 0 to 4", _rank_of_generalisers),
+        line("most generations in a row in which a run has one", _longest_spell),
+    ]
+    for index, name in enumerate(SUBTASKS):
+        what = f"agents in category 10 of sub-task {name}: {SUBTASK_WORDS[name]}"
+        lines.append(line(what, lambda c, each, i=index: _top_share(c, each, i)))
+    for kind in AgentClass:
+        for test, word in enumerate(("action", "object")):
+            what = f"{kind} agents that pass the {word} transition"
+            lines.append(line(what, lambda c, each, k=kind, t=test: _passed(c, each, k, t)))
+    return lines
+
+
+def _plateau_runs(condition: Condition, each: ConditionResults) -> tuple[str, str]:
+    return of(published.RUNS, published.RUNS), of(each.at_plateau, len(each.runs))
+
+
+def _plateau(condition: Condition, each: ConditionResults) -> tuple[str, str]:
+    paper = f"about {published.PLATEAU}"
+    if not len(each.runs):
+        return paper, "no run"
+    low, middle, high = np.quantile(each.plateau, [0, 0.5, 1])
+    if len(each.runs) == 1:
+        return paper, f"{middle:.2f}"
+    return paper, f"{low:.2f} to {high:.2f}, median {middle:.2f}"
+
+
+def _solved(condition: Condition, each: ConditionResults) -> tuple[str, str]:
+    solved = int((each.first_solved >= 0).sum())
+    return NOT_GIVEN, of(solved, len(each.runs)) + first_seeds(each.seeds, each.first_solved)
+
+
+def _runs_with_generalisers(condition: Condition, each: ConditionResults) -> tuple[str, str]:
+    known = condition is Condition.WITH_INDICATE
+    paper = of(published.RUNS_WITH_GENERALISERS, published.RUNS) if known else NOT_GIVEN
+    return paper, of(runs_with_generalisers(each), len(each.runs))
+
+
+def runs_with_generalisers(each: ConditionResults) -> int:
+    """Runs in which some agent is fully compositional."""
+    return int((each.members[AgentClass.FULL] > 0).sum())
+
+
+def _most_generalisers(condition: Condition, each: ConditionResults) -> tuple[str, str]:
+    paper = "one or two" if condition is Condition.WITH_INDICATE else NOT_GIVEN
+    return paper, str(max(int(found.counts.max()) for found in each.generalisers)) if each.runs else "no run"
+
+
+def _rank_of_generalisers(condition: Condition, each: ConditionResults) -> tuple[str, str]:
+    return NOT_GIVEN, rank_of_generalisers(each)
+
+
+def _longest_spell(condition: Condition, each: ConditionResults) -> tuple[str, str]:
+    return NOT_GIVEN, longest_spell(each)
+
+
+def _top_share(condition: Condition, each: ConditionResults, column: int) -> tuple[str, str]:
+    theirs, ours = published.TABLE_II[condition][-1, column], each.counts[-1, column]
+    return (
+        f"{percent(theirs / published.AGENTS)} ({theirs:,})",
+        f"{percent(ours / each.n_agents)} ({ours:,})" if each.n_agents else "no run",
+    )
+
+
+def _passed(condition: Condition, each: ConditionResults, kind: AgentClass, test: int) -> tuple[str, str]:
+    outcome = each.transitions[kind]
+    action = (outcome.action_passed, outcome.runs_action)
+    object_ = (outcome.object_passed, outcome.runs_object)
+    passed, runs = object_ if test else action
+    in_runs = f", in {runs} run{'s' if runs != 1 else ''}" if passed else ""
+    ours = of(passed, outcome.agents) + in_runs if outcome.agents else "no such agent"
+    return PUBLISHED_TRANSITIONS[condition][kind][test], ours
+
+
+def first_seeds(seeds: Iterable[int], generations: Iterable[int]) -> str:
+    """Such as " (seed 7: generation 2,179)"; nothing if there is none."""
+    found = [f"seed {s}: generation {g:,}" for s, g in zip(seeds, generations, strict=True) if g >= 0]
+    return f" ({', '.join(found)})" if found else ""

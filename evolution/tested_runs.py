@@ -1,0 +1,96 @@
+"""The runs of an experiment that can be analysed, read whole; and a sentence for each of the others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from evolution.experiment import state_of
+from evolution.folder import RunFolder
+from evolution.history import History
+from evolution.postevaluation import PostEvaluation, read_post_evaluation
+from evolution.recorded import recorded_histories
+from evolution.solving import solved_trials
+from evolution.transition_test import TransitionTest, read_transition_test
+
+
+@dataclass(frozen=True)
+class TestedRun:
+    """A run that was evolved and tested to the end.
+
+    Attributes:
+        run: Its folder.
+        best: [G], best fitness per generation.
+        first_solved: First generation in which one genotype carried out all trials; -1 if none.
+        genotypes: Distinct ones among the five best of the late generations.
+        longest_stay: The most of these generations in which one of them was among the five best.
+        evaluation: What its agents made of all nine instructions.
+        transitions: What its classed agents made of changes in mid-trial.
+    """
+
+    run: RunFolder
+    best: NDArray[np.float64]
+    first_solved: int
+    genotypes: int
+    longest_stay: int
+    evaluation: PostEvaluation
+    transitions: TransitionTest
+
+
+def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[str]]:
+    """The runs that are complete and sound, and for each of the others why it is left out and what to do.
+
+    Raises:
+        ValueError: If the runs are of different lengths, which cannot stand in one table.
+    """
+    tested, missing = [], []
+    for run in runs:
+        if reason := _unfinished(run):
+            missing.append(f"{_name(run)}: left out, {reason}")
+            continue
+        try:
+            tested.append(_read(run))
+        except ValueError as error:
+            missing.append(f"{_name(run)}: left out, {error}")
+    lengths = {each.run.config.settings.generations for each in tested}
+    if len(lengths) > 1:
+        raise ValueError(f"the runs have {sorted(lengths)} generations; analyse runs of one length together")
+    return tested, missing
+
+
+def _unfinished(run: RunFolder) -> str:
+    """What a run still lacks, or nothing."""
+    state = state_of(run)
+    if state.damage:
+        return state.damage
+    if not state.finished:
+        return f"{state.generations} generations so far; go on with: wordarm evolve --output {run.path}"
+    if state.evaluated < state.to_evaluate:
+        return f"not post-evaluated; go on with: wordarm postevaluate {run.path}"
+    return ""
+
+
+def _read(run: RunFolder) -> TestedRun:
+    """All of a run that an analysis needs; raises `ValueError` if a file is missing or damaged."""
+    evaluation, transitions = read_post_evaluation(run), read_transition_test(run)
+    history = History.join(recorded_histories(run))
+    n_trials = len(run.config.condition.experienced) * 2 * run.config.settings.trials_per_area
+    all_solved = np.flatnonzero(solved_trials(run) == n_trials)
+    late = history.best_genotypes[-len(evaluation.generations) :]
+    _, copies = np.unique(late.reshape(-1, late.shape[-1]), axis=0, return_counts=True)
+    return TestedRun(
+        run=run,
+        best=history.best,
+        first_solved=int(all_solved[0]) if all_solved.size else -1,
+        genotypes=len(copies),
+        longest_stay=int(copies.max()),
+        evaluation=evaluation,
+        transitions=transitions,
+    )
+
+
+def _name(run: RunFolder) -> str:
+    return f"{run.config.condition}, seed {run.config.seed}"
