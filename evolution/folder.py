@@ -32,8 +32,9 @@ PARTS: Final = "parts"
 CHECKPOINT: Final = "checkpoint.npz"
 CHAMPIONS: Final = "champions.npz"
 LOCK: Final = "lock"
+LEASE: Final = "lease"
 ANALYSES: Final = ("postevaluation", "transitions", "evaluation", "lineage", "behaviour")
-OWN_FILES: Final = {CONFIG, META, PARTS, CHECKPOINT, CHAMPIONS, LOCK, *ANALYSES}
+OWN_FILES: Final = {CONFIG, META, PARTS, CHECKPOINT, CHAMPIONS, LOCK, LEASE, *ANALYSES}
 
 
 @dataclass(frozen=True)

@@ -1,43 +1,57 @@
-"""One process at a time works on a run."""
+"""One process at a time works on a run, of however many machines."""
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TextIO
+from typing import Final, TextIO
 
 from evolution.folder import LOCK
+from evolution.lease import RunInUseError, leased
 
+__all__ = ["RunInUseError", "locked"]
 
-class RunInUseError(ValueError):
-    """Another process works on the run."""
+# What file systems answer that keep no locks.
+NO_LOCKS: Final = (errno.ENOSYS, errno.ENOLCK, errno.ENOTSUP)
 
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold the folder's lock. The kernel gives it back when the process ends, however it ends.
+    """Hold the folder's lock and lease. The kernel gives the lock back when the process ends, however it ends.
 
     Raises:
-        RunInUseError: If another process holds it.
-        OSError: If the lock file cannot be written.
+        RunInUseError: If another process holds one of them.
+        OSError: If they cannot be written.
     """
     with _open(folder / LOCK) as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            file.seek(0)
-            holder = file.read().strip() or "unknown"
-            raise RunInUseError(
-                f"another process (number {holder}) works on {folder}; "
-                "wait until it ends, or choose another folder"
-            ) from None
-        file.truncate(0)
-        file.write(f"{os.getpid()}\n")
-        file.flush()
-        yield
+        held = _lock(file, folder)
+        with leased(folder, lock_held=held):
+            file.truncate(0)
+            file.write(f"{os.getpid()}\n")
+            file.flush()
+            yield
+
+
+def _lock(file: TextIO, folder: Path) -> bool:
+    """Lock the file; False if its file system keeps no locks, so that the lease must do."""
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        file.seek(0)
+        holder = file.read().strip() or "unknown"
+        raise RunInUseError(
+            f"another process (number {holder}) works on {folder}; "
+            "wait until it ends, or choose another folder"
+        ) from None
+    except OSError as error:
+        if error.errno not in NO_LOCKS:
+            raise
+        return False
+    return True
 
 
 def _open(path: Path) -> TextIO:

@@ -17,6 +17,7 @@ from evolution import postevaluation, transition_test
 from evolution.config import RunConfig
 from evolution.experiment import state_of
 from evolution.folder import CHAMPIONS, CONFIG, GENERATIONS_PER_PART, LOCK, RunFolder
+from evolution.lease import held_elsewhere
 from evolution.postevaluation import late_spans
 from evolution.solving import FILE as SOLVED
 from evolution.storage import DamagedFileError
@@ -113,7 +114,9 @@ def standing_of(path: Path, config: RunConfig) -> Standing:
 
 
 def is_held(path: Path) -> bool:
-    """Whether a process works on a run; asked without touching its lock."""
+    """Whether a process works on a run, of whatever machine; asked without touching its lock."""
+    if held_elsewhere(path):
+        return True
     try:
         inode = (path / LOCK).stat().st_ino
         locks = LOCK_TABLE.read_text(encoding="utf-8").splitlines()

@@ -1,0 +1,153 @@
+"""Who may write a folder when its lock does not reach the other machine."""
+
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from dataclasses import asdict
+
+import pytest
+
+from evolution import lease, lock
+from evolution.cli import main
+from evolution.folder import LEASE
+from evolution.lease import EXIT_CODE, LAPSE, Holder, RunInUseError, leased
+from evolution.lock import locked
+from evolution.standing import is_held
+
+ELSEWHERE = Holder(process=7, host="node12", kernel="another kernel", token="one")
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    monkeypatch.setattr(lease, "SETTLE", 0.2)
+
+
+def leave(folder, holder=ELSEWHERE, *, age=0.0):
+    """A lease as another process left it, so many seconds ago."""
+    (folder / LEASE).write_text(json.dumps(asdict(holder)))
+    then = time.time() - age
+    os.utime(folder / LEASE, (then, then))
+
+
+def test_a_lease_is_there_while_it_is_held_and_gone_after_it(tmp_path):
+    with locked(tmp_path):
+        held = json.loads((tmp_path / LEASE).read_text())
+    assert held["process"] == os.getpid()
+    assert [each.name for each in tmp_path.iterdir()] == ["lock"]
+
+
+def test_a_run_that_is_alive_on_another_machine_is_refused_and_left_alone(run_copy, capsys):
+    leave(run_copy)
+    before = (run_copy / LEASE).read_bytes()
+    assert main(["repair", str(run_copy)]) == 2
+    assert f"process 7 on node12 works on {run_copy}" in capsys.readouterr().err
+    assert (run_copy / LEASE).read_bytes() == before
+    assert is_held(run_copy)
+
+
+def test_a_run_whose_machine_is_dead_is_taken_over_after_a_while(tmp_path):
+    leave(tmp_path, age=LAPSE - 5)
+    with pytest.raises(RunInUseError), locked(tmp_path):
+        pass
+    leave(tmp_path, age=LAPSE + 5)
+    assert not is_held(tmp_path)
+    with locked(tmp_path):
+        assert json.loads((tmp_path / LEASE).read_text())["process"] == os.getpid()
+
+
+@pytest.mark.parametrize("content", ["", "[1]", '{"process": 1}', "{"])
+def test_a_lease_that_cannot_be_read_is_waited_for_like_any_other(content, tmp_path):
+    (tmp_path / LEASE).write_text(content)
+    with pytest.raises(RunInUseError, match="a process on another machine"), locked(tmp_path):
+        pass
+
+
+def holder_process(folder, renewal=15.0):
+    """A real process that holds a folder, and has said so."""
+    code = (
+        "import sys, time; from pathlib import Path; from evolution import lease; from evolution.lock import "
+        f"locked\nlease.RENEWAL = {renewal}\nwith locked(Path(sys.argv[1])):\n"
+        "    print('held', flush=True); time.sleep(60)"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", code, str(folder)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "held\n"
+    return process
+
+
+def test_a_killed_process_of_this_machine_is_followed_at_once(tmp_path):
+    process = holder_process(tmp_path)
+    with pytest.raises(RunInUseError, match=f"number {process.pid}"), locked(tmp_path):
+        pass
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    assert (tmp_path / LEASE).exists()
+    with locked(tmp_path):
+        pass
+
+
+def test_a_process_whose_run_was_taken_over_ends_itself(tmp_path):
+    process = holder_process(tmp_path, renewal=0.05)
+    leave(tmp_path)
+    _, errors = process.communicate(timeout=30)
+    assert process.returncode == EXIT_CODE
+    assert errors.startswith(f"wordarm: node12 has taken over {tmp_path}")
+    assert json.loads((tmp_path / LEASE).read_text()) == asdict(ELSEWHERE)
+
+
+def test_a_holder_that_cannot_touch_its_lease_gives_up_before_others_take_over(tmp_path, monkeypatch):
+    monkeypatch.setattr(lease, "RENEWAL", 0.01)
+    monkeypatch.setattr(lease, "GIVE_UP", 0.05)
+    lost = threading.Event()
+    with leased(tmp_path, lock_held=True, on_loss=lambda sentence: lost.set()):
+        (tmp_path / LEASE).unlink()
+        assert lost.wait(30)
+    assert lease.GIVE_UP < LAPSE
+
+
+def test_a_lease_is_touched_as_long_as_it_is_held(tmp_path, monkeypatch):
+    monkeypatch.setattr(lease, "RENEWAL", 0.01)
+    with locked(tmp_path):
+        os.utime(tmp_path / LEASE, (0, 0))
+        until = time.monotonic() + 30
+        while (tmp_path / LEASE).stat().st_mtime == 0:
+            assert time.monotonic() < until
+
+
+def test_of_two_that_take_over_in_the_same_moment_one_does(tmp_path):
+    for _ in range(5):
+        leave(tmp_path, age=LAPSE + 5)
+        together, won, over = threading.Barrier(2), [], threading.Barrier(2)
+
+        def take(name, together=together, won=won, over=over):
+            together.wait()
+            try:
+                with leased(tmp_path, lock_held=True):
+                    won.append(name)
+                    over.wait()
+            except RunInUseError:
+                over.wait()
+
+        takers = [threading.Thread(target=take, args=(i,)) for i in range(2)]
+        for each in takers:
+            each.start()
+        for each in takers:
+            each.join()
+        assert len(won) == 1
+
+
+def test_where_the_file_system_keeps_no_locks_the_lease_keeps_processes_apart(tmp_path, monkeypatch):
+    def refuse(file, operation):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(lock.fcntl, "flock", refuse)
+    with locked(tmp_path), pytest.raises(RunInUseError, match=f"process {os.getpid()} on"), locked(tmp_path):
+        pass
+    with locked(tmp_path):
+        pass
