@@ -21,7 +21,7 @@ NO_LOCKS: Final = (errno.ENOSYS, errno.ENOLCK, errno.ENOTSUP)
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold the folder's lock and lease. The kernel gives the lock back when the process ends, however it ends.
+    """Hold the folder's lock and lease. The kernel gives the lock back, however the process ends.
 
     Raises:
         RunInUseError: If another process holds one of them.
