@@ -9,15 +9,14 @@ Jobs stand in chains, such as the stages of a run: each starts when the one befo
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final
+from typing import Final, Protocol
 
 from evolution.folder import CHECKPOINT
-from evolution.workers import BAD_INPUT, Ended, Job, Worker
+from evolution.workers import BAD_INPUT, ColdStart, Ended, Job, Worker
 
 MOST_RESTARTS: Final = 3  # without progress
 POLL_INTERVAL: Final = 0.1  # [s]
@@ -50,8 +49,20 @@ class Watcher:
     wants_stop: Callable[[], bool] = lambda: False
 
 
+class Start(Protocol):
+    """A way to start workers and to wait for them."""
+
+    def start(self, job: Job) -> Worker:
+        """The worker of a job."""
+        ...
+
+    def wait(self, workers: Iterable[Worker], seconds: float) -> None:
+        """Return after some time, or before, when a worker ends."""
+        ...
+
+
 def run_jobs(
-    chains: Sequence[Sequence[Job]], at_once: int, watcher: Watcher | None = None
+    chains: Sequence[Sequence[Job]], at_once: int, watcher: Watcher | None = None, start: Start | None = None
 ) -> tuple[Failure, ...]:
     """Run chains of jobs, `at_once` processes at a time; a chain that was begun goes before others.
 
@@ -62,6 +73,7 @@ def run_jobs(
         chains: The jobs.
         at_once: Processes at a time, at least 1.
         watcher: Is told of what happens, and may stop it.
+        start: How workers are started; by default each as a new Python process.
 
     Returns:
         The jobs that were given up. Those that were stopped, or never started, are not among them.
@@ -69,12 +81,13 @@ def run_jobs(
     Raises:
         OSError: If a log cannot be written, or no process can be started.
     """
-    runner = _Runner([list(chain) for chain in chains if chain], watcher or Watcher())
+    waiting = [list(chain) for chain in chains if chain]
+    runner = _Runner(waiting, watcher or Watcher(), start or ColdStart())
     with _none_left_behind(runner):
         while runner.workers or (runner.waiting and not runner.watcher.wants_stop()):
             _start_or_stop(runner, at_once)
             runner.watcher.on_tick([worker.job for worker, _ in runner.workers])
-            time.sleep(POLL_INTERVAL)
+            runner.start.wait([worker for worker, _ in runner.workers], POLL_INTERVAL)
             _take_note_of_ends(runner)
     return tuple(runner.failures)
 
@@ -98,6 +111,7 @@ class _Runner:
 
     waiting: list[list[Job]]
     watcher: Watcher
+    start: Start
     workers: list[tuple[Worker, list[Job]]] = field(default_factory=list)
     tallies: dict[Job, _Tally] = field(default_factory=dict)
     failures: list[Failure] = field(default_factory=list)
@@ -111,7 +125,7 @@ def _start_or_stop(runner: _Runner, at_once: int) -> None:
         return
     for chain in list(runner.waiting):
         if len(runner.workers) < at_once and runner.watcher.may_start(chain[0]):
-            runner.workers.append((Worker(chain[0]), chain[1:]))
+            runner.workers.append((runner.start.start(chain[0]), chain[1:]))
             runner.waiting.remove(chain)
 
 

@@ -19,6 +19,7 @@ from evolution.experiment import state_of
 from evolution.folder import CHAMPIONS, CONFIG, GENERATIONS_PER_PART, LOCK, RunFolder
 from evolution.lease import held_elsewhere
 from evolution.postevaluation import late_spans
+from evolution.settings import Settings
 from evolution.solving import FILE as SOLVED
 from evolution.storage import DamagedFileError
 
@@ -42,6 +43,7 @@ class Standing:
         done: Whether the tests are over too.
         at_work: Whether a process holds the run.
         damage: What is wrong with it, or nothing.
+        variant: Of the experiment, if it has several.
     """
 
     config: RunConfig
@@ -53,11 +55,13 @@ class Standing:
     done: bool = False
     at_work: bool = False
     damage: str = ""
+    variant: str = ""
 
     @property
     def name(self) -> str:
-        """Condition and seed."""
-        return f"{self.config.condition}, seed {self.config.seed}"
+        """Variant, condition and seed."""
+        prefix = f"{self.variant}, " if self.variant else ""
+        return f"{prefix}{self.config.condition}, seed {self.config.seed}"
 
     @property
     def state(self) -> str:
@@ -73,25 +77,42 @@ class Standing:
 
 @dataclass(frozen=True)
 class Pace:
-    """What things take [s]: a generation, and a part of one test."""
+    """What things take [s]: a generation of the paper's size, and a part of one test."""
 
     generation: float
     test: float
 
     def left(self, standing: Standing) -> float:
         """Time a run still takes [s]; NaN while that is unknown."""
-        generations = standing.config.settings.generations - standing.generations
-        return generations * self.generation + (standing.to_test - standing.tested) * self.test
+        config, tests = standing.config, standing.to_test - standing.tested
+        generations = config.settings.generations - standing.generations
+        return generations * size_of(config) * self.generation + (tests * self.test if tests else 0.0)
 
 
-def standing_of(path: Path, config: RunConfig) -> Standing:
-    """How far a run has come; one that was not started has come nowhere."""
+def size_of(config: RunConfig) -> float:
+    """Trials in a generation, as a multiple of the paper's."""
+    settings, paper = config.settings, Settings()
+    trials = settings.population * settings.trials_per_area
+    return trials / (paper.population * paper.trials_per_area)
+
+
+def standing_of(path: Path, config: RunConfig, *, variant: str = "", to_be_tested: bool = True) -> Standing:
+    """How far a run has come; one that was not started has come nowhere.
+
+    Args:
+        path: Its folder.
+        config: The run.
+        variant: Its variant, for people.
+        to_be_tested: Whether the paper's tests belong to it.
+    """
     run = RunFolder(path, config)
-    n_late = len(late_spans(run))
+    late = late_spans(run) if to_be_tested else []
     if not (path / CONFIG).exists():
-        return Standing(config, to_test=2 * n_late)
+        return Standing(config, to_test=2 * len(late), variant=variant)
     state = state_of(run)
-    tested = state.evaluated + sum(transition_test.part_path(run, each).exists() for each in late_spans(run))
+    tested = sum(
+        test.part_path(run, each).exists() for test in (postevaluation, transition_test) for each in late
+    )
     best, damage = float("nan"), state.damage
     if state.generations:
         span = run.spans[(state.generations - 1) // GENERATIONS_PER_PART]
@@ -105,11 +126,15 @@ def standing_of(path: Path, config: RunConfig) -> Standing:
         generations=state.generations,
         best=best,
         tested=tested,
-        to_test=2 * n_late,
+        to_test=2 * len(late),
         evolved=evolved,
-        done=evolved and tested == 2 * n_late and (path / postevaluation.FOLDER / SOLVED).exists(),
+        done=evolved
+        and (
+            not to_be_tested or (tested == 2 * len(late) and (path / postevaluation.FOLDER / SOLVED).exists())
+        ),
         at_work=is_held(path),
         damage=damage,
+        variant=variant,
     )
 
 
@@ -129,7 +154,8 @@ def pace_of(runs: Iterable[RunFolder]) -> Pace:
     """What a generation and a test's part take, the median over all runs; NaN where nothing tells."""
     generations, evaluations, transitions = [], [], []
     for run in runs:
-        generations += _intervals([run.part_path(each) for each in run.spans])
+        size = size_of(run.config)
+        generations += [each / size for each in _intervals([run.part_path(each) for each in run.spans])]
         evaluations += _intervals([postevaluation.part_path(run, each) for each in late_spans(run)])
         transitions += _intervals([transition_test.part_path(run, each) for each in late_spans(run)])
     part = median(generations) if generations else float("nan")

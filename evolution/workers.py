@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -14,6 +15,8 @@ from typing import Final
 from evolution.storage import make_folder
 
 BAD_INPUT: Final = 2
+# The exit code of a process whose end nobody saw: its files tell how far it came.
+LOST: Final = 255
 # How the command line begins the one sentence of an error.
 SENTENCE_PREFIX: Final = "wordarm: "
 
@@ -58,6 +61,8 @@ class Ended:
     @property
     def how(self) -> str:
         """How it ended, in words."""
+        if self.exit_code == LOST:
+            return "lost sight of"
         if self.exit_code >= 0:
             return f"ended with exit code {self.exit_code}"
         try:
@@ -80,15 +85,20 @@ class Worker:
         make_folder(job.log.parent)
         with job.log.open("ab") as log:
             self._log_start = log.tell()
+        self._began = time.monotonic()
+        self._begin()
+
+    def _begin(self) -> None:
+        """Start the process."""
+        with self.job.log.open("ab") as log:
             # A process group of its own: Ctrl-C reaches it through us, once, and in good order.
             self._process = subprocess.Popen(  # noqa: S603 - our own program
-                [sys.executable, "-m", "evolution", *job.arguments],
+                [sys.executable, "-m", "evolution", *self.job.arguments],
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
                 process_group=0,
             )
-        self._began = time.monotonic()
 
     @property
     def told_to_stop(self) -> bool:
@@ -111,7 +121,10 @@ class Worker:
         """Ask it once to stop: evolution does so after the generation at hand."""
         if not self._told_to_stop:
             self._told_to_stop = True
-            self._process.terminate()
+            self._signal(signal.SIGTERM)
+
+    def _signal(self, number: signal.Signals) -> None:
+        self._process.send_signal(number)
 
     def kill(self) -> None:
         """End it at once; its files are whole at any moment."""
@@ -125,3 +138,17 @@ class Worker:
             lines = file.read().decode("utf-8", "replace").splitlines()
         said = [line.removeprefix(SENTENCE_PREFIX) for line in lines if line.startswith(SENTENCE_PREFIX)]
         return said[-1] if said else f"bad input, but no word of it; see {self.job.log}"
+
+
+class ColdStart:
+    """Starts each job as a new Python process."""
+
+    @staticmethod
+    def start(job: Job) -> Worker:
+        """The worker of a job; raises as `Worker`."""
+        return Worker(job)
+
+    @staticmethod
+    def wait(workers: Iterable[Worker], seconds: float) -> None:
+        """Return after some time."""
+        time.sleep(seconds)

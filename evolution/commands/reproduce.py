@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
@@ -19,9 +17,8 @@ from evolution.settings import Settings
 if TYPE_CHECKING:
     from evolution.interrupt import StopRequest
     from evolution.jobs import Failure
-    from evolution.reproduce import Plan
+    from evolution.plan import Plan
     from evolution.results import Results
-    from evolution.workers import Job
 
 MOST_RUNS: Final = 10_000
 BAD_INPUT: Final = 2
@@ -53,7 +50,7 @@ class Reproduce:
     @property
     def plan(self) -> Plan:
         """The runs that are asked for."""
-        from evolution.reproduce import Plan
+        from evolution.plan import Plan
 
         if not 1 <= self.runs <= MOST_RUNS:
             raise ValueError(f"asked for {self.runs} runs of each condition; give 1 to {MOST_RUNS}")
@@ -69,17 +66,16 @@ class Reproduce:
         """Reproduce; the exit code is 130 if it was stopped, 2 if a job was given up."""
         from evolution.interrupt import StopRequest
         from evolution.lock import locked
+        from evolution.plan_runner import processes, run_plan_shown
         from evolution.storage import make_folder
 
-        at_once = len(os.sched_getaffinity(0)) if self.jobs is None else self.jobs
-        if at_once < 1:
-            raise ValueError(f"asked for {at_once} processes at a time; there must be at least 1")
+        at_once = processes(self.jobs)
         plan, began = self.plan, time.monotonic()
         plan.check()
         make_folder(plan.folder)
         with locked(plan.folder):
             with StopRequest() as stop:
-                failures = _evolve_and_test(plan, at_once, stop)
+                failures = run_plan_shown(plan, at_once, stop)
                 results = None if stop.requested else _analyse(plan.folder)
                 if results and not stop.requested:
                     failures += _look_at_agents(results, plan.folder, at_once, stop)
@@ -91,34 +87,6 @@ class Reproduce:
         for each in failures:
             print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
         return BAD_INPUT if failures else 0
-
-
-def _evolve_and_test(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
-    """Run the runs' jobs under the live table; those given up."""
-    from rich.console import Console
-
-    from evolution.jobs import Watcher
-    from evolution.live_table import shown_table
-    from evolution.reproduce import run_plan, watched_standings
-    from evolution.stage_times import note_time
-
-    console, at_work = Console(), set[str]()
-    with shown_table(console, lambda: watched_standings(plan, at_work), at_once) as show:
-
-        def tick(jobs: Sequence[Job]) -> None:
-            at_work.clear()
-            at_work.update(job.name for job in jobs)
-            show()
-
-        watcher = Watcher(
-            on_tick=tick,
-            on_end=lambda ended: note_time(plan.folder, ended),
-            on_note=lambda note: console.print(note, highlight=False),
-            wants_stop=lambda: stop.requested,
-        )
-        failures = run_plan(plan, at_once, watcher)
-        at_work.clear()
-    return failures
 
 
 def _analyse(folder: Path) -> Results:

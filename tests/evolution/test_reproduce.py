@@ -18,7 +18,7 @@ from evolution.config import RunConfig
 from evolution.folder import LOCK
 from evolution.live_table import duration, plain_lines
 from evolution.lock import locked
-from evolution.reproduce import Plan, evolve_arguments, in_use
+from evolution.plan import Plan, evolve_arguments, in_use
 from evolution.settings import Settings
 from evolution.stage_times import FILE, stage_times
 from evolution.standing import Pace, Standing, is_held, standing_of, time_left
@@ -85,6 +85,7 @@ def test_workers_and_parent_killed_at_random_cost_nothing_but_time(reproduced, t
     folder, rng, kills = tmp_path / "small", random.Random(1), 0
     for _ in range(3):
         process = subprocess.Popen(command(folder), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        wait_for(lambda: any(map(is_held, folder.glob("*/seed-0001"))))
         for _ in range(3):
             time.sleep(rng.uniform(0.2, 1.2))
             kills += sum(kill_holder(path) for path in folder.glob("*/seed-0001"))

@@ -1,0 +1,257 @@
+"""An experiment file: which runs, as one TOML file (docs/experiments.md).
+
+Any setting and any reading may be a list of values; the experiment is then every combination of them.
+`sector_centres`, itself a list, becomes a grid as a list of lists. A [[variant]] is a world with a name; if
+there are any, each of them is a grid of its own, on top of what the whole file sets.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from itertools import product
+from math import prod
+from pathlib import Path
+from typing import Any, Final
+
+from arm2d import Condition, Readings
+from evolution.config import RunConfig
+from evolution.plan import Plan, World
+from evolution.seeds import read_seeds
+from evolution.settings import Settings
+from evolution.toml_keys import check_keys, one_of_kind, table_of
+from evolution.variants import check_name, value_name, variant_name
+
+KEYS: Final = (
+    "output", "jobs", "conditions", "seeds", "preset", "post_evaluate", "settings", "readings", "variant",
+)  # fmt: skip
+VARIANT_KEYS: Final = ("name", "settings", "readings")
+LARGEST_FILE: Final = 1_000_000  # [bytes]
+MOST_RUNS: Final = 100_000
+MOST_VARIANTS: Final = 10_000
+
+
+@dataclass(frozen=True)
+class ExperimentSpec:
+    """What an experiment file asks for.
+
+    Attributes:
+        output: Folder of the experiment.
+        conditions: Which third action is met.
+        seeds: Of the runs.
+        worlds: Readings and settings of every variant, with the names of those that have one.
+        post_evaluate: Whether the paper's two tests follow evolution.
+        jobs: Processes at a time; None for as many as there are processors.
+    """
+
+    output: Path
+    conditions: tuple[Condition, ...]
+    seeds: tuple[int, ...]
+    worlds: Mapping[World, str | None]
+    post_evaluate: bool = False
+    jobs: int | None = None
+
+    def configs(self) -> tuple[RunConfig, ...]:
+        """All runs: for each seed, all variants and conditions, so that all get on together."""
+        return tuple(
+            RunConfig(condition, seed, settings, readings)
+            for seed in self.seeds
+            for readings, settings in self.worlds
+            for condition in self.conditions
+        )
+
+    def plan(self) -> Plan:
+        """The same with its folders.
+
+        Raises:
+            ValueError: If two variants would have the same folder.
+        """
+        names = {world: name for world, name in self.worlds.items() if name}
+        plan = Plan(self.output, self.configs(), self.post_evaluate, names)
+        seen: dict[str, World] = {}
+        for world, name in plan.variants.items():
+            if name in seen:
+                raise ValueError(f"two variants are called {name!r}; give each a name of its own")
+            check_name(name)
+            seen[name] = world
+        return plan
+
+    def with_settings(self, **values: int) -> ExperimentSpec:
+        """The same with some settings put in the place of the file's.
+
+        Raises:
+            ValueError: If two variants would become the same, or a value is impossible.
+        """
+        worlds: dict[World, str | None] = {}
+        for (readings, settings), name in self.worlds.items():
+            world = (readings, replace(settings, **values))
+            if world in worlds:
+                raise ValueError(
+                    f"with {_told(values)} two variants are the same; the file makes a grid of that setting"
+                )
+            worlds[world] = name
+        return replace(self, worlds=worlds)
+
+
+def read_experiment(path: Path) -> ExperimentSpec:
+    """What an experiment file asks for.
+
+    Raises:
+        ValueError: With one sentence, if the file cannot be read, is no TOML, has an unknown key, a value of
+            the wrong kind, an empty grid, or the same thing twice.
+    """
+    try:
+        values = tomllib.loads(_text_of(path))
+        return experiment_from_mapping(values, Path("runs") / path.stem)
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"{path} is not TOML: {error}") from None
+    except RecursionError:
+        raise ValueError(f"{path} is nested too deeply to be read") from None
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
+def experiment_from_mapping(values: Mapping[str, Any], output: Path) -> ExperimentSpec:
+    """What plain values ask for, as read from a file; `output` is used if they name none.
+
+    Raises:
+        ValueError: As `read_experiment`.
+    """
+    check_keys("key", values, KEYS)
+    spec = ExperimentSpec(
+        _output(values.get("output"), output),
+        _conditions(values.get("conditions", ["with-indicate"])),
+        read_seeds(values.get("seeds", 1)),
+        dict(_worlds(values)),
+        one_of_kind("post_evaluate", values.get("post_evaluate", False), bool),
+        one_of_kind("jobs", values["jobs"], int) if "jobs" in values else None,
+    )
+    check_size(spec)
+    return spec
+
+
+def check_size(spec: ExperimentSpec) -> None:
+    """Refuse an experiment nobody can have meant."""
+    n = len(spec.worlds) * len(spec.conditions) * len(spec.seeds)
+    if n > MOST_RUNS:
+        raise ValueError(f"this makes {n:,} runs; an experiment has at most {MOST_RUNS:,}: split it up")
+
+
+def _text_of(path: Path) -> str:
+    """The text of a file of reasonable size."""
+    if not path.is_file():
+        raise ValueError("there is no such file; give an experiment file, such as docs/experiments.md shows")
+    if path.stat().st_size > LARGEST_FILE:
+        raise ValueError(f"the file is larger than {LARGEST_FILE:,} bytes; an experiment file is short")
+    try:
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise ValueError("the file is not text in UTF-8") from None
+
+
+def _output(value: Any, default: Path) -> Path:
+    """The folder of the experiment, below where the command is given."""
+    if value is None:
+        return default
+    path = Path(one_of_kind("output", value, str))
+    if path.is_absolute() or ".." in path.parts or not path.parts or "\0" in value:
+        raise ValueError(
+            f"output = {value!r} must be a folder below the current one, such as 'runs/geometry'; "
+            "for another place give --output"
+        )
+    return path
+
+
+def _conditions(value: Any) -> tuple[Condition, ...]:
+    """One condition or several."""
+    given = [value] if isinstance(value, str) else value
+    if not isinstance(given, list) or not given or not all(isinstance(each, str) for each in given):
+        raise ValueError(
+            f"conditions = {value!r} must be a list of {' and '.join(map(str, Condition))}, or one of them"
+        )
+    conditions = tuple(Condition.parse(each) for each in given)
+    _refuse_twice("conditions", [str(each) for each in conditions])
+    return conditions
+
+
+def _worlds(values: Mapping[str, Any]) -> Iterator[tuple[World, str | None]]:
+    """Readings and settings of every variant, each once."""
+    base = Readings.preset(one_of_kind("preset", values.get("preset", "default"), str))
+    variants = values.get("variant", [{}])
+    if not isinstance(variants, list) or not variants or not all(isinstance(v, Mapping) for v in variants):
+        raise ValueError("variant must be tables, each headed [[variant]]")
+    names: dict[World, str | None] = {}
+    for variant in variants:
+        for world, name in _grid(values, variant, base, named="variant" in values):
+            if world in names:
+                told = name or variant_name(*world)
+                raise ValueError(f"variant {told!r} is the same as {names[world] or told!r}; leave one out")
+            names[world] = name
+            yield world, name
+
+
+def _grid(
+    values: Mapping[str, Any], variant: Mapping[str, Any], base: Readings, named: bool
+) -> Iterator[tuple[World, str | None]]:
+    """Every combination of a variant's values, which go before those of the whole file."""
+    check_keys("key", variant, VARIANT_KEYS, " in [[variant]]")
+    if named and "name" not in variant:
+        raise ValueError("a [[variant]] has no name; give it one, such as name = 'wide'")
+    name = check_name(variant["name"]) if named else None
+    settings = {**_table(values, "settings", Settings), **_table(variant, "settings", Settings)}
+    readings = {**_table(values, "readings", Readings), **_table(variant, "readings", Readings)}
+    if (size := prod(map(len, [*settings.values(), *readings.values()]))) > MOST_VARIANTS:
+        raise ValueError(f"this grid has {size:,} variants; at most {MOST_VARIANTS:,} can be told apart")
+    for chosen in product(*settings.values(), *readings.values()):
+        own = dict(zip([*settings, *readings], chosen, strict=True))
+        world = (
+            base.with_values({key: own[key] for key in readings}),
+            Settings.from_mapping({key: own[key] for key in settings}),
+        )
+        varied = [each for each, options in {**readings, **settings}.items() if len(options) > 1]
+        parts = [value_name(each, own[each]) for each in varied]
+        yield world, "+".join([name, *parts]) if name else None
+
+
+def _table(values: Mapping[str, Any], key: str, record: type) -> dict[str, list[Any]]:
+    """A table's values, each as a list of those to be combined."""
+    table = table_of(key, values.get(key, {}))
+    check_keys(key.removesuffix("s"), table, [each.name for each in fields(record)], f" in [{key}]")
+    return {name: _options(name, value, getattr(record, name)) for name, value in table.items()}
+
+
+def _options(name: str, value: Any, default: Any) -> list[Any]:
+    """The values of one field: a list of them, or one. For `sector_centres` one is a list already."""
+    is_grid = isinstance(value, list)
+    if isinstance(default, tuple):
+        is_grid = is_grid and all(isinstance(each, list) for each in value)
+    if not is_grid:
+        return [_as_default(value, default)]
+    if not value:
+        raise ValueError(f"{name} = [] is an empty grid; give at least one value, or leave it out")
+    options = [_as_default(each, default) for each in value]
+    _refuse_twice(name, options)
+    return options
+
+
+def _as_default(value: Any, default: Any) -> Any:
+    """A number as the kind of its field: 5 and 5.0 are the same radius."""
+    if isinstance(value, list):
+        return tuple(float(each) if _is_whole(each) else each for each in value)
+    return float(value) if isinstance(default, float) and _is_whole(value) else value
+
+
+def _is_whole(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def _refuse_twice(name: str, values: Sequence[Any]) -> None:
+    """Refuse a list in which something stands twice."""
+    for i, each in enumerate(values):
+        if each in values[:i]:
+            raise ValueError(f"{name} has {each} twice; leave one out")
+
+
+def _told(values: Mapping[str, int]) -> str:
+    return ", ".join(f"{name} = {value}" for name, value in values.items())

@@ -1,0 +1,147 @@
+"""Which runs make up an experiment, where they are kept, and the jobs that are still to be done for them.
+
+    FOLDER/<condition>/seed-0007               if all runs share readings and settings
+    FOLDER/<variant>/<condition>/seed-0007     else; each variant's folder is an experiment of its own
+
+What is done is known from the files of a run alone, so whoever carries out a plan goes on where it was left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Final
+
+from arm2d import Readings
+from evolution.config import RunConfig
+from evolution.folder import CONFIG, RunFolder, refuse_other
+from evolution.lock import RunInUseError, locked
+from evolution.settings import Settings
+from evolution.standing import Pace, Standing, pace_of, standing_of
+from evolution.variants import common_settings, variant_name
+from evolution.workers import Job
+
+LOGS: Final = "logs"
+EVOLVING: Final = "evolving"
+TESTING: Final = "testing"
+
+# What the runs of a variant have in common.
+World = tuple[Readings, Settings]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Which runs make up an experiment, and where they are kept.
+
+    Attributes:
+        folder: Of the experiment.
+        configs: The runs, in the order in which they are started.
+        post_evaluate: Whether the paper's two tests follow evolution.
+        names: Names of variants; those that have none are named after what is special about them.
+    """
+
+    folder: Path
+    configs: tuple[RunConfig, ...]
+    post_evaluate: bool = True
+    names: Mapping[World, str] = field(default_factory=dict)
+
+    @cached_property
+    def variants(self) -> dict[World, str]:
+        """The name of every variant, in the order of the runs."""
+        worlds = list(dict.fromkeys((each.readings, each.settings) for each in self.configs))
+        if not worlds:
+            return {}
+        common = common_settings(settings for _, settings in worlds)
+        return {world: self.names.get(world) or variant_name(*world, common) for world in worlds}
+
+    def variant(self, config: RunConfig) -> str:
+        """The folder of a run's variant; nothing if there is only one."""
+        return self.variants[config.readings, config.settings] if len(self.variants) > 1 else ""
+
+    def path(self, config: RunConfig) -> Path:
+        """The folder of a run."""
+        return self.folder / self.variant(config) / config.condition / f"seed-{config.seed:04d}"
+
+    def run_name(self, config: RunConfig) -> str:
+        """A run's name for people: variant, if there are several, condition and seed."""
+        return Standing(config, variant=self.variant(config)).name
+
+    def standing(self, config: RunConfig) -> Standing:
+        """How far a run has come."""
+        return standing_of(
+            self.path(config), config, variant=self.variant(config), to_be_tested=self.post_evaluate
+        )
+
+    def standings(self) -> list[Standing]:
+        """How far every run has come."""
+        return [self.standing(config) for config in self.configs]
+
+    def pace(self) -> Pace:
+        """How fast the runs have been."""
+        return pace_of(RunFolder(self.path(config), config) for config in self.configs)
+
+    def check(self) -> None:
+        """Refuse folders that hold other runs, before anything is written.
+
+        Raises:
+            ValueError: With the difference.
+        """
+        self._refuse_other_layout()
+        for config in self.configs:
+            refuse_other(self.path(config), config)
+
+    def chains(self) -> list[list[Job]]:
+        """The stages that are still to be done, run by run."""
+        return [self._stages(each) for each in self.standings() if not each.done]
+
+    def _stages(self, standing: Standing) -> list[Job]:
+        """What is still to be done for a run."""
+        config = standing.config
+        path = self.path(config)
+        log = self.folder / LOGS / f"{'-'.join(path.relative_to(self.folder).parts)}.log"
+        evolve = Job(standing.name, EVOLVING, evolve_arguments(config, path), path, log)
+        test = Job(standing.name, TESTING, ("postevaluate", str(path)), path, log)
+        stages = [evolve, test] if self.post_evaluate else [evolve]
+        return stages[1:] if standing.evolved else stages
+
+    def _refuse_other_layout(self) -> None:
+        """Refuse to mix runs of one variant with folders of several."""
+        several = len(self.variants) > 1
+        pattern = f"with-*/seed-*/{CONFIG}" if several else f"*/with-*/seed-*/{CONFIG}"
+        if found := next(self.folder.glob(pattern), None):
+            here, asked = ("one variant", f"{len(self.variants)} variants")
+            if not several:
+                here, asked = "several variants", "one"
+            raise ValueError(
+                f"{self.folder} holds runs of {here}, such as {found.parent}, not of {asked}; "
+                "choose another output folder"
+            )
+
+
+def evolve_arguments(config: RunConfig, path: Path) -> tuple[str, ...]:
+    """The command that starts exactly this run, or goes on with it, without `wordarm`."""
+    values = config.to_mapping()
+    arguments = ["evolve", f"--condition={config.condition}", f"--seed={config.seed}", f"--output={path}"]
+    for name, value in values["settings"].items():
+        arguments.append(f"--{_flag(name)}={value}")
+    for name, value in values["readings"].items():
+        flag = f"--readings.{_flag(name)}"
+        arguments += [flag, *map(repr, value)] if isinstance(value, list) else [f"{flag}={value}"]
+    return tuple(arguments)
+
+
+def in_use(path: Path) -> bool:
+    """Whether another process works on a run, such as one left over when its parent was killed."""
+    if not (path / CONFIG).exists():
+        return False
+    try:
+        with locked(path):
+            return False
+    except RunInUseError:
+        return True
+
+
+def _flag(name: str) -> str:
+    return name.replace("_", "-")

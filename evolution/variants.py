@@ -1,0 +1,80 @@
+"""The variants of an experiment: worlds and algorithms that are compared, and the names of their folders."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import fields, replace
+from typing import Any, Final
+
+from arm2d import Condition, Readings
+from evolution.settings import Settings
+
+DEFAULT_NAME: Final = "default"
+LONGEST_NAME: Final = 200
+# A condition's name would make a variant's folder look like an experiment of one variant.
+RESERVED: Final = {"logs", "results", "studies", *(str(each) for each in Condition)}
+PATTERN: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
+
+
+def variant_name(readings: Readings, settings: Settings | None = None, common: Settings | None = None) -> str:
+    """What is special about readings and settings, fit for a folder, such as `object-radius-8`.
+
+    Args:
+        readings: Named wherever they differ from the default readings.
+        settings: Named wherever they differ from `common`; by default not at all.
+        common: By default the paper's settings.
+
+    Returns:
+        Field names with dashes and their values, joined by `+`; `default` if nothing is special.
+    """
+    parts = [value_name(name, value) for name, value in _differences(readings, Readings())]
+    if settings is not None:
+        parts += [value_name(name, value) for name, value in _differences(settings, common or Settings())]
+    return "+".join(parts) or DEFAULT_NAME
+
+
+def value_name(name: str, value: Any) -> str:
+    """A field and its value, fit for a folder: `sector-centres-45-90-135`. Equal names mean equal values."""
+    values = value if isinstance(value, (list, tuple)) else [value]
+    return "-".join([name, *map(_plain, values)]).replace("_", "-")
+
+
+def check_name(name: Any) -> str:
+    """A name that a user gave to a variant.
+
+    Raises:
+        ValueError: If it cannot be a folder's name, or is needed for another one.
+    """
+    if not isinstance(name, str) or not PATTERN.fullmatch(name) or len(name) > LONGEST_NAME:
+        raise ValueError(
+            f"variant name {name!r} cannot be a folder's; give letters, digits, - _ + and ., "
+            f"at most {LONGEST_NAME}, the first a letter or digit"
+        )
+    if name in RESERVED:
+        raise ValueError(f"variant name {name!r} is taken; {', '.join(sorted(RESERVED))} are")
+    return name
+
+
+def common_settings(each: Iterable[Settings]) -> Settings:
+    """The paper's settings, but for the fields in which all the given ones agree: these are theirs."""
+    found = list(each)
+    shared = {
+        field.name: getattr(found[0], field.name)
+        for field in fields(Settings)
+        if len({getattr(settings, field.name) for settings in found}) == 1
+    }
+    return replace(Settings(), **shared) if shared else Settings()
+
+
+def _differences(record: Any, base: Any) -> list[tuple[str, Any]]:
+    """Names and values of the fields in which a record differs from another."""
+    values = [(each.name, getattr(record, each.name)) for each in fields(base)]
+    return [(name, value) for name, value in values if value != getattr(base, name)]
+
+
+def _plain(value: Any) -> str:
+    """A value in letters and digits; whole numbers without a point."""
+    if isinstance(value, float):
+        return str(int(value)) if value.is_integer() else repr(value)
+    return str(value)
