@@ -40,17 +40,17 @@ def run_trial(genotype, instruction: Instruction, alpha, discs, readings: Readin
     `changes` are (instruction heard first, instruction heard later, delay); scored is `instruction`.
     """
     r, target = readings, instruction.object
-    think = _controller(genotype, r)
+    think = controller(genotype, r)
     discs, beta, sides = [tuple(each) for each in discs], c.BETA_MAX, [None, None, None]
     heard, later, delay = changes or (instruction, instruction, 0)
     countdown, run, best, stretch = None, 0.0, 0.0, 0.0
     goal = _goal(instruction.action, r)
     first_offset = offset = offset_of(alpha, discs[target])
     for step in range(1, c.MAX_STEPS + 1):  # noqa: B007 - the last step's number is part of the score
-        turn1, turn2 = think(_sense(alpha, beta, discs, sides, heard, r))
+        turn1, turn2 = think(sense(alpha, beta, discs, sides, heard, r))
         new_alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
         new_beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))
-        discs, sides = _touch(alpha, beta, new_alpha, new_beta, discs, sides, r.object_radius)
+        discs, sides = touch(alpha, beta, new_alpha, new_beta, discs, sides, r.object_radius)
         turned, alpha, beta = new_alpha - alpha, new_alpha, new_beta
         offset = offset_of(alpha, discs[target])
         in_view = offset <= c.VIEW_HALF_WIDTH
@@ -71,7 +71,7 @@ def run_trial(genotype, instruction: Instruction, alpha, discs, readings: Readin
     return _score(instruction.action, first_offset, offset, collided, best, beta, stretch, step, r)
 
 
-def _controller(genotype, readings: Readings):
+def controller(genotype, readings: Readings):
     """The CTRNN as a function from 18 inputs to the turns of S1 and S2 (eq. 1 to 3)."""
     net = decode(genotype, readings)
     weights = net.sensory_weights, net.recurrent_weights, net.motor_weights
@@ -113,7 +113,7 @@ def _turn(go: float, way: float, size: float) -> float:
     return 0.0 if go <= 0.5 or way == 0.5 else copysign(size, 0.5 - way)
 
 
-def _sense(alpha, beta, discs, sides, heard: Instruction, r: Readings) -> list[float]:
+def sense(alpha, beta, discs, sides, heard: Instruction, r: Readings) -> list[float]:
     """I1 to I18 (spec section 4)."""
     sectors = [[False] * 3 for _ in range(3)]
     for disc, centre in enumerate(discs):
@@ -135,7 +135,7 @@ def _sense(alpha, beta, discs, sides, heard: Instruction, r: Readings) -> list[f
     return [*map(float, touch + sum(sectors, [])), beta / c.BETA_MAX, *map(float, words)]  # noqa: RUF017
 
 
-def _touch(alpha0, beta0, alpha1, beta1, discs, sides, radius):
+def touch(alpha0, beta0, alpha1, beta1, discs, sides, radius):
     """Carry, push or leave every disc while the arm moves in four sub-steps (spec section 3)."""
     discs, sides = list(discs), list(sides)
     pose = s2_pose(alpha0, beta0)

@@ -15,6 +15,8 @@ from math import pi
 from types import MappingProxyType
 
 from models.appearance import ICUB_APPEARANCE, Appearance
+from models.limits import ICUB_LIMITS, MotorLimits
+from models.shapes import ICUB_SHAPES, ContactShape
 
 
 class UnknownRobotError(ValueError):
@@ -76,6 +78,8 @@ class Robot:
         left_out: Links that are not built in MuJoCo, with all that hangs on them.
         fixed: [rad], the angle at which a joint that does not act is held; 0 if not named.
         appearance: Colours and ornaments.
+        limits: What the motors can do; None if nothing is known of it, then there is no physics.
+        shapes: What meets the objects.
     """
 
     name: str
@@ -92,6 +96,8 @@ class Robot:
     left_out: tuple[str, ...] = ()
     fixed: Mapping[str, float] = field(default_factory=dict)
     appearance: Appearance = field(default_factory=Appearance)
+    limits: MotorLimits | None = None
+    shapes: tuple[ContactShape, ...] = ()
 
     def __post_init__(self) -> None:
         """Check that the numbers fit the joints, and freeze the mapping."""
@@ -145,6 +151,8 @@ ICUB = Robot(
         "l_elbow": 0.4,
     },
     appearance=ICUB_APPEARANCE,
+    limits=ICUB_LIMITS,
+    shapes=ICUB_SHAPES,
 )
 
 ROBOTS: Mapping[str, Robot] = MappingProxyType({robot.name: robot for robot in (ICUB,)})

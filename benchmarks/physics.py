@@ -1,0 +1,83 @@
+"""The robot's motors in trials of an agent: tracking, effort, time; without objects in the way, and with.
+
+python -m benchmarks.physics [CHAMPION.npz]
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from arm2d import Condition, Readings, Trials, draw_trials
+from models.robots import get_robot
+from mujoco_port.exertion import Exertion, exertion
+from mujoco_port.open_loop import OpenLoop, planar_angles
+from mujoco_port.physical import Lab, instruction_of
+from mujoco_port.physical_rollout import PhysicalRecord, carry_out
+
+CHAMPION = Path(__file__).parents[1] / "evolution" / "champions" / "best-generaliser.npz"
+OUT_OF_THE_WAY_M = np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]])  # corners of the table
+
+
+def without_objects(lab: Lab, genotype: np.ndarray, trial: Trials) -> PhysicalRecord:
+    """All 250 steps of a trial, the objects being where the hand does not come."""
+    instruction, readings = instruction_of(trial), Readings()
+    angles = planar_angles(genotype, instruction, float(trial.alpha[0]), trial.discs[0], readings)
+    places = OUT_OF_THE_WAY_M / lab.body.robot.plane.scale
+    return carry_out(lab.body, lab.kinematics, OpenLoop(angles), instruction, places, lambda _: False)
+
+
+def main() -> None:
+    """Print a table."""
+    with np.load(sys.argv[1] if len(sys.argv) > 1 else CHAMPION, allow_pickle=False) as stored:
+        genotype = stored["genotypes"][0]
+    robot, readings = get_robot("icub"), Readings()
+    lab = Lab(robot)
+    trials = draw_trials(Condition.WITH_INDICATE.instructions, 1, readings, np.random.default_rng(3))
+    without_objects(lab, genotype, trials[0])  # compiled and warm
+
+    table = Table(title=f"{robot.title}, {len(trials)} trials: nine instructions, both start areas")
+    for heading in ("", "error [mm] median", "p99", "max", "deepest contact [mm]", "CPU [s] for 25 s"):
+        table.add_column(heading, justify="right" if heading else "left")
+    efforts: list[Exertion] = []
+    for name in ("without objects", "with objects"):
+        records, began = [], time.process_time()
+        for t in range(len(trials)):
+            alone = name == "without objects"
+            records.append(
+                without_objects(lab, genotype, trials[t])
+                if alone
+                else lab.open_loop(genotype, trials[t], readings)[0]
+            )
+        spent = (time.process_time() - began) / sum(record.steps for record in records) * 250
+        errors = 1e3 * np.concatenate([record.tracking_error for record in records])
+        depth = 1e3 * max(record.depth.max() for record in records)
+        middle, high = np.percentile(errors, [50, 99])
+        cells = (f"{middle:.4f}", f"{high:.3f}", f"{errors.max():.3f}", f"{depth:.2f}", f"{spent:.2f}")
+        table.add_row(name, *cells)
+        efforts += [exertion(record, lab.kinematics, robot.limits) for record in records if robot.limits]
+    Console().print(table)
+    _print_effort(robot.joints, efforts)
+
+
+def _print_effort(joints: tuple[str, ...], efforts: list[Exertion]) -> None:
+    """Print the largest part used of every joint's limits."""
+    table = Table(title="largest part of the limits that was used")
+    for heading in ("joint", "position", "velocity", "torque"):
+        table.add_column(heading, justify="left" if heading == "joint" else "right")
+    largest = efforts[0]
+    for effort in efforts[1:]:
+        largest = largest.with_(effort)
+    for j, joint in enumerate(joints):
+        parts = (largest.position[j], largest.velocity[j], largest.torque[j])
+        table.add_row(joint, *(f"{100 * part:.0f} %" for part in parts))
+    Console().print(table)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,106 @@
+"""The model of `models.build`, made to act: a robot with motors and a hand that can touch."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from models.build import ROBOT_PREFIX, build_spec
+from models.limits import MotorLimits
+from models.robots import Robot
+from models.shapes import ContactShape
+
+SHAPE_PREFIX = "touching/"  # of the names of the shapes that meet objects
+SHAPE_GROUP = 3  # not drawn
+TABLE_TOPS = ("top", "right_wing", "left_wing")
+OBJECTS = ("blue", "green", "red")
+# Which shapes meet: objects (1) with everything, the robot's shapes (2) with objects only.
+OBJECT_BIT, ROBOT_BIT = 1, 2
+
+# Sliding friction. Rubber skin of a hand on an object: 1.2 to 1.5. Object on table: smooth plastic on wood.
+HAND_FRICTION = 1.3
+TABLE_FRICTION = 0.4
+# A motor pulls like a spring of this natural frequency on the inertia that the joint moves at rest,
+# critically damped: stiff enough to hold the hand, soft enough for steps of 2 ms.
+NATURAL_FREQUENCY = 50.0  # [rad/s]
+
+
+class NoPhysicsError(ValueError):
+    """A robot's record says too little for it to act."""
+
+
+def build_physics_model(robot: Robot) -> mujoco.MjModel:
+    """Compile the robot with one position actuator for each acting joint, in the order of its `joints`.
+
+    An actuator's torque is kp (ctrl - q) - kv q', cut off at the motor's limit.
+
+    Raises:
+        NoPhysicsError: If nothing is known of the robot's motors, or of the shape of its hand.
+        RobotNotInstalledError: If the robot's package is missing.
+    """
+    if robot.limits is None or not robot.shapes:
+        missing = "motor limits" if robot.limits is None else "contact shapes"
+        raise NoPhysicsError(
+            f"the record of robot '{robot.name}' has no {missing}; play the trial without physics"
+        )
+    spec = build_spec(robot)
+    for shape in robot.shapes:
+        add_shape(spec, shape)
+    for name in TABLE_TOPS:
+        spec.geom(name).friction = [TABLE_FRICTION, 0.005, 0.0001]
+    for name in OBJECTS:
+        spec.geom(name).friction = [TABLE_FRICTION, 0.005, 0.0001]
+        spec.geom(name).contype = OBJECT_BIT
+        spec.geom(name).conaffinity = OBJECT_BIT | ROBOT_BIT
+    add_motors(spec, robot, robot.limits)
+    return spec.compile()
+
+
+def add_shape(spec: mujoco.MjSpec, shape: ContactShape) -> None:
+    """Add one shape without mass that meets objects."""
+    body = spec.body(ROBOT_PREFIX + shape.link)
+    place = {"type": mujoco.mjtGeom.mjGEOM_BOX, "pos": list(shape.start), "size": list(shape.end)}
+    if shape.radius is not None:
+        ends = [*shape.start, *shape.end]
+        place = {"type": mujoco.mjtGeom.mjGEOM_CAPSULE, "fromto": ends, "size": [shape.radius, 0.0, 0.0]}
+    body.add_geom(
+        name=SHAPE_PREFIX + shape.name,
+        group=SHAPE_GROUP,
+        mass=0.0,
+        contype=ROBOT_BIT,
+        conaffinity=0,
+        priority=1,  # the hand's friction holds, not the larger of both
+        friction=[HAND_FRICTION, 0.005, 0.0001],
+        **place,
+    )
+
+
+def add_motors(spec: mujoco.MjSpec, robot: Robot, limits: MotorLimits) -> None:
+    """Add the position actuators."""
+    inertias = moved_inertias(spec.compile(), robot)
+    for name, inertia, torque in zip(robot.joints, inertias, limits.torque, strict=True):
+        stiffness, damping = inertia * NATURAL_FREQUENCY**2, 2.0 * inertia * NATURAL_FREQUENCY
+        actuator = spec.add_actuator(name=name, target=ROBOT_PREFIX + name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+        actuator.gainprm[0] = stiffness
+        actuator.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+        actuator.biasprm[1:3] = -stiffness, -damping
+        actuator.forcelimited = True
+        actuator.forcerange = [-torque, torque]
+
+
+def moved_inertias(model: mujoco.MjModel, robot: Robot) -> np.ndarray:
+    """What each acting joint moves when the robot is at rest, [J] in [kg m^2]: the mass matrix's diagonal."""
+    data = mujoco.MjData(model)
+    joints = [model.joint(ROBOT_PREFIX + name) for name in robot.joints]
+    data.qpos[[joint.qposadr[0] for joint in joints]] = robot.posture.rest
+    mujoco.mj_forward(model, data)
+    dofs = [joint.dofadr[0] for joint in joints]
+    return np.array([acceleration_cost(model, data, dof) for dof in dofs])
+
+
+def acceleration_cost(model: mujoco.MjModel, data: mujoco.MjData, dof: int) -> float:
+    """One diagonal entry of the mass matrix."""
+    unit, column = np.zeros(model.nv), np.zeros(model.nv)
+    unit[dof] = 1.0
+    mujoco.mj_mulM(model, data, column, unit)
+    return column[dof]

@@ -1,0 +1,124 @@
+"""The robot's body in MuJoCo: motors that follow joint angles, physics at 2 ms.
+
+A position actuator alone lags behind. Its set point is therefore shifted by what the motion needs anyway:
+
+    ctrl = q + (kv q' + tau) / kp,   tau = inverse dynamics of (q, q', q'')
+
+by recursive Newton-Euler (Pinocchio), so that the spring has to make up for contacts only.
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from arm2d.constants import DT
+from models.build import HAND_SITE, ROBOT_PREFIX
+from models.physics import OBJECTS, build_physics_model
+from models.robots import Robot
+from mujoco_port.hand import hand_model
+from mujoco_port.trajectory import Motion
+
+
+class Body:
+    """A robot that acts, its table and three free objects; J joints.
+
+    Args:
+        robot: Its record.
+
+    Attributes:
+        model: Of MuJoCo.
+        data: Its state; written by `start` and `follow` only.
+        steps_per_turn: Physics steps in a control step.
+        hand_site: Which site of the model is the point that plays S2's end.
+
+    Raises:
+        NoPhysicsError: If the robot's record says too little.
+    """
+
+    def __init__(self, robot: Robot, model: mujoco.MjModel | None = None) -> None:
+        self.robot = robot
+        self.model = build_physics_model(robot) if model is None else model
+        self.data = mujoco.MjData(self.model)
+        self.steps_per_turn = round(DT / self.model.opt.timestep)
+        joints = [self.model.joint(ROBOT_PREFIX + name) for name in robot.joints]
+        self._angles = [joint.qposadr[0] for joint in joints]
+        self._speeds = [joint.dofadr[0] for joint in joints]
+        self._objects = [self.model.joint(name).qposadr[0] for name in OBJECTS]
+        self._heights = [self.model.body(name).pos[2] for name in OBJECTS]
+        self._object_ids = [self.model.body(name).id for name in OBJECTS]
+        self.hand_site = self.model.site(HAND_SITE).id
+        self._stiffness = self.model.actuator_gainprm[:, 0].copy()
+        self._damping = -self.model.actuator_biasprm[:, 2]
+        self._passive = self.model.dof_damping[self._speeds].copy()
+        self._dynamics, _ = hand_model(robot)
+        self._dynamics_data = self._dynamics.createData()
+
+    @property
+    def angles(self) -> NDArray[np.float64]:
+        """Of the joints, [J] in [rad]."""
+        return self.data.qpos[self._angles]
+
+    @property
+    def velocities(self) -> NDArray[np.float64]:
+        """Of the joints, [J] in [rad/s]."""
+        return self.data.qvel[self._speeds]
+
+    @property
+    def torques(self) -> NDArray[np.float64]:
+        """Of the motors, [J] in [N m]."""
+        return self.data.actuator_force
+
+    @property
+    def hand(self) -> NDArray[np.float64]:
+        """The point that plays S2's end, [3] in [m] in the world."""
+        return self.data.site_xpos[self.hand_site]
+
+    @property
+    def hand_rotation(self) -> NDArray[np.float64]:
+        """[3, 3]: x along the fingers, y to the little finger, z out of the palm."""
+        return self.data.site_xmat[self.hand_site].reshape(3, 3)
+
+    @property
+    def objects(self) -> NDArray[np.float64]:
+        """Centres of the objects, [3, 3] in [m] in the world: blue, green, red."""
+        return self.data.xpos[self._object_ids]
+
+    @property
+    def object_turns(self) -> NDArray[np.float64]:
+        """How the objects are turned, [3, 4], quaternions."""
+        return self.data.xquat[self._object_ids]
+
+    @property
+    def uprightness(self) -> NDArray[np.float64]:
+        """How far each object stands upright, [3]: the cosine of its tilt."""
+        return self.data.xmat[self._object_ids, 8]
+
+    def start(self, angles: NDArray[np.float64], objects: NDArray[np.float64]) -> None:
+        """Stand still at joint angles [J] in [rad], the objects' centres on the table at [3, 2] in [m]."""
+        mujoco.mj_resetData(self.model, self.data)
+        self.data.qpos[self._angles] = angles
+        for address, height, place in zip(self._objects, self._heights, objects, strict=True):
+            self.data.qpos[address : address + 7] = (*place, height, 1.0, 0.0, 0.0, 0.0)
+        self.data.ctrl[:] = self.set_points(
+            Motion(*(np.stack([each]) for each in (angles, 0 * angles, 0 * angles)))
+        )[0]
+        mujoco.mj_forward(self.model, self.data)
+
+    def set_points(self, motion: Motion) -> NDArray[np.float64]:
+        """The actuators' controls [N, J] in [rad] for a motion of N moments."""
+        torques = np.array(
+            [
+                pin.rnea(self._dynamics, self._dynamics_data, q, v, a)
+                for q, v, a in zip(motion.angles, motion.velocities, motion.accelerations, strict=True)
+            ]
+        )
+        torques += (self._passive + self._damping) * motion.velocities
+        return motion.angles + torques / self._stiffness
+
+    def advance(self, set_point: NDArray[np.float64]) -> None:
+        """Take one physics step towards a set point [J] in [rad]."""
+        self.data.ctrl[:] = set_point
+        mujoco.mj_step(self.model, self.data)

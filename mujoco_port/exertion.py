@@ -1,0 +1,45 @@
+"""How much of what a robot can do a trial asks of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from models.limits import MotorLimits
+from mujoco_port.kinematics import ArmKinematics
+from mujoco_port.physical_rollout import PhysicalRecord
+
+
+@dataclass(frozen=True)
+class Exertion:
+    """The largest part of each joint's limits that was used, each [J]; 1 is the limit.
+
+    Attributes:
+        position: Of the way from the middle of the range to its bounds.
+        velocity: Of the largest speed.
+        torque: Of the largest torque.
+    """
+
+    position: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    torque: NDArray[np.float64]
+
+    def with_(self, other: Exertion) -> Exertion:
+        """The larger of two trials' parts, joint by joint."""
+        return Exertion(
+            np.maximum(self.position, other.position),
+            np.maximum(self.velocity, other.velocity),
+            np.maximum(self.torque, other.torque),
+        )
+
+
+def exertion(record: PhysicalRecord, kinematics: ArmKinematics, limits: MotorLimits) -> Exertion:
+    """What a trial asked of its robot."""
+    middle, half = (kinematics.upper + kinematics.lower) / 2, (kinematics.upper - kinematics.lower) / 2
+    return Exertion(
+        (np.abs(record.angles - middle) / half).max(axis=0),
+        (np.abs(record.velocities) / limits.velocity).max(axis=0),
+        (np.abs(record.torques) / limits.torque).max(axis=0),
+    )

@@ -1,0 +1,62 @@
+"""Open loop: the agent lives in the 2D world, and the robot does what S2 does there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import Instruction, Readings
+from arm2d import constants as c
+from arm2d.reference import controller, sense, touch
+from mujoco_port.physical_rollout import Angles
+
+
+def planar_angles(
+    genotype: NDArray[np.float64],
+    instruction: Instruction,
+    alpha: float,
+    discs: NDArray[np.float64],
+    readings: Readings,
+) -> Iterator[Angles]:
+    """Alpha and beta in [deg] at the start of a trial of the 2D world and after every step, without an end.
+
+    A trial there ends as soon as its instruction is carried out. On the robot, it is carried out a moment or
+    a few degrees later: until then agent and world go on as they did.
+
+    Args:
+        genotype: [84].
+        instruction: What is heard.
+        alpha: [deg], where S1 starts.
+        discs: [3, 2] in [cm], centres of blue, green and red.
+        readings: The world.
+    """
+    think = controller(genotype, readings)
+    beta, places, sides = c.BETA_MAX, [tuple(each) for each in discs], [None, None, None]
+    while True:
+        yield alpha, beta
+        turn1, turn2 = think(sense(alpha, beta, places, sides, instruction, readings))
+        new_alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
+        new_beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))
+        places, sides = touch(alpha, beta, new_alpha, new_beta, places, sides, readings.object_radius)
+        alpha, beta = new_alpha, new_beta
+
+
+class OpenLoop:
+    """Orders that follow the 2D world, which knows nothing of the robot.
+
+    Args:
+        angles: As `planar_angles` gives them.
+    """
+
+    def __init__(self, angles: Iterator[Angles]) -> None:
+        self._angles = angles
+
+    def first(self) -> tuple[Angles, Angles]:
+        """The start and the first step."""
+        return next(self._angles), next(self._angles)
+
+    def after(self) -> Angles:
+        """The step after."""
+        return next(self._angles)

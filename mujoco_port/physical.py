@@ -1,0 +1,79 @@
+"""Trials on an acting robot: the public face of the physics.
+
+from mujoco_port.physical import Lab
+record, verdict = Lab(get_robot("icub")).open_loop(genotype, trial, readings)
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import ActionWord, Instruction, ObjectWord, Readings, Trials
+from models.robots import Robot
+from mujoco_port.control import Body
+from mujoco_port.kinematics import ArmKinematics
+from mujoco_port.open_loop import OpenLoop, planar_angles
+from mujoco_port.physical_rollout import PhysicalRecord, Pilot, carry_out
+from mujoco_port.verdict import Verdict, judge
+
+
+class Lab:
+    """A robot at its table, ready for one trial after the other.
+
+    Args:
+        robot: Its record.
+
+    Attributes:
+        body: The robot in MuJoCo.
+        kinematics: Its inverse kinematics.
+
+    Raises:
+        NoPhysicsError: If the robot's record says too little for it to act.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        self.body = Body(robot)
+        self.kinematics = ArmKinematics(robot)
+
+    def open_loop(
+        self, genotype: NDArray[np.float64], trial: Trials, readings: Readings
+    ) -> tuple[PhysicalRecord, Verdict]:
+        """Let the agent live in the 2D world, and the robot do what S2 does there.
+
+        Args:
+            genotype: [84].
+            trial: A batch of one.
+            readings: The world.
+
+        Raises:
+            OutOfReachError: If the robot cannot reach a place.
+        """
+        instruction, discs = instruction_of(trial), trial.discs[0]
+        angles = planar_angles(genotype, instruction, float(trial.alpha[0]), discs, readings)
+        return self.carry_out(OpenLoop(angles), instruction, discs, readings)
+
+    def carry_out(
+        self, pilot: Pilot, instruction: Instruction, discs: NDArray[np.float64], readings: Readings
+    ) -> tuple[PhysicalRecord, Verdict]:
+        """Carry out a trial under anybody's orders, until its verdict is certain."""
+        record = carry_out(
+            self.body,
+            self.kinematics,
+            pilot,
+            instruction,
+            discs,
+            lambda so_far: judge(so_far, readings).certain,
+        )
+        return record, judge(record, readings)
+
+
+def instruction_of(trial: Trials) -> Instruction:
+    """What is asked in a batch of one trial.
+
+    Raises:
+        ValueError: If it is not one trial.
+    """
+    if len(trial) != 1:
+        raise ValueError(f"these are {len(trial)} trials; the robot carries out one at a time: trials[0]")
+    return Instruction(ActionWord(int(trial.actions[0])), ObjectWord(int(trial.objects[0])))

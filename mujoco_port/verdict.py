@@ -1,0 +1,122 @@
+"""Whether a robot has carried out its instruction: the criteria of the 2D world (section VI) in 3D.
+
+Judged is what happened to the objects, moment by moment of the physics. S1 exists on the robot as a direction
+only: the one that was ordered.
+
+    INDICATE   10 s on end: the target's bearing within 4.6 degrees of S1, and nothing touches the target
+    TOUCH      10 s on end: on target, the hand's little-finger side on the target, S1 at rest
+    MOVE       on target and the hand's little-finger side on the target, from a touch on, until the target's
+               bearing has changed by 34.4 degrees; it stands upright all the while
+    IGNORE     10 s on end: the target neither within 15 degrees of S1 nor touched
+
+As soon as the robot, or the target, touches another object the trial has failed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import ActionWord, Readings
+from arm2d.constants import DT, GOOD_STEPS_FOR_SUCCESS, VIEW_HALF_WIDTH
+from mujoco_port.contacts import RIGHT_SIDE
+from mujoco_port.physical_rollout import PhysicalRecord
+
+PHYSICS_STEP: Final = 0.002  # [s]
+GOOD_TIME_S: Final = DT * GOOD_STEPS_FOR_SUCCESS
+# Contacts of two hard bodies chatter. A break of at most this long is none.
+LONGEST_BREAK_S: Final = 0.02
+UPRIGHT: Final = float(np.cos(np.radians(10.0)))  # a cylinder of these proportions falls at 27 degrees
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What became of an instruction.
+
+    Attributes:
+        success: Whether it was carried out.
+        reason: In words, why not or how.
+        progress: Seconds, or degrees for MOVE, of what was asked that were reached.
+        end: The physics step at which this was certain; N if it never was.
+        certain: Whether nothing that comes later can change it.
+    """
+
+    success: bool
+    reason: str
+    progress: float
+    end: int
+    certain: bool
+
+
+def judge(record: PhysicalRecord, readings: Readings) -> Verdict:
+    """Judge what a robot has done so far."""
+    action, target = record.instruction.action, int(record.instruction.object)
+    others = np.delete(record.contact, target, axis=1).any(axis=1)
+    n = len(record.alpha)
+    fault = int(np.argmax(others)) if others.any() else n
+    good = closed(_is_good(record, readings), _gap(record))
+    progress = arcs(good, bearings(record)[:, target]) if action is ActionWord.MOVE else lengths(good)
+    goal = readings.move_angle if action is ActionWord.MOVE else GOOD_TIME_S
+    reached = progress >= goal - 1e-9
+    when = int(np.argmax(reached)) if reached.any() else n
+    best = float(progress[: fault + 1].max(initial=0.0))
+    if when < fault:
+        return Verdict(True, "carried out", best, when, True)
+    if others.any():
+        return Verdict(False, "another object was touched", best, fault, True)
+    unit = "degrees" if action is ActionWord.MOVE else "s"
+    return Verdict(False, f"{best:.1f} of {goal:g} {unit}", best, n, False)
+
+
+def bearings(record: PhysicalRecord) -> NDArray[np.float64]:
+    """Bearings of the objects from J1, [N, 3] in [deg], in [-90, 270)."""
+    x, y = record.objects[..., 0], record.objects[..., 1]
+    degrees = np.degrees(np.arctan2(y, x))
+    return np.where(degrees < -90.0, degrees + 360.0, degrees)
+
+
+def closed(good: NDArray[np.bool_], gap: int) -> NDArray[np.bool_]:
+    """The same moments [N], with breaks of at most `gap` moments between two good ones closed."""
+    edges = np.flatnonzero(np.diff(good.astype(np.int8), prepend=0, append=0))
+    starts, ends = edges[::2], edges[1::2]
+    whole = good.copy()
+    for end, start in zip(ends[:-1], starts[1:], strict=True):
+        if start - end <= gap:
+            whole[end:start] = True
+    return whole
+
+
+def lengths(good: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """How long it has been good on end, [N] in [s]."""
+    index = np.arange(1, len(good) + 1)
+    return (PHYSICS_STEP * (index - np.maximum.accumulate(np.where(good, 0, index)))).astype(np.float64)
+
+
+def arcs(good: NDArray[np.bool_], bearing: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How far the bearing [N] in [deg] has changed since it has been good on end, [N] in [deg]."""
+    index = np.arange(len(good))
+    last_bad = np.maximum.accumulate(np.where(good, -1, index))
+    return np.where(good, np.abs(bearing - bearing[np.maximum(last_bad, 0)]), 0.0)
+
+
+def _is_good(record: PhysicalRecord, readings: Readings) -> NDArray[np.bool_]:
+    """The moments that count, [N]."""
+    action, target = record.instruction.action, int(record.instruction.object)
+    off = np.abs(bearings(record)[:, target] - record.alpha)
+    touched, right = record.contact[:, target] != 0, (record.contact[:, target] & RIGHT_SIDE) != 0
+    if action is ActionWord.INDICATE:
+        return (off < readings.indicate_cone) & ~touched
+    if action is ActionWord.TOUCH:
+        return (off < readings.target_cone) & right & record.still
+    if action is ActionWord.MOVE:
+        return (off < readings.target_cone) & right & (record.upright[:, target] > UPRIGHT)
+    return (off > VIEW_HALF_WIDTH) & ~touched
+
+
+def _gap(record: PhysicalRecord) -> int:
+    """The longest break that counts as none, in physics steps: only where a contact is asked for."""
+    asks = record.instruction.action in (ActionWord.TOUCH, ActionWord.MOVE)
+    return round(LONGEST_BREAK_S / PHYSICS_STEP) if asks else 0

@@ -1,0 +1,133 @@
+"""The robot's motors: the motion between control steps, feed-forward torques, tracking, limits."""
+
+import dataclasses
+
+import mujoco
+import numpy as np
+import pytest
+
+from models.physics import NoPhysicsError, build_physics_model
+from mujoco_port.exertion import exertion
+from mujoco_port.open_loop import planar_angles
+from mujoco_port.physical_rollout import carry_out
+from mujoco_port.trajectory import motion_between
+
+N = 50  # physics steps in a control step
+
+
+@pytest.fixture(scope="module")
+def knots():
+    """Joint targets [K, J] that start, turn back, stop and run on."""
+    steps = np.random.default_rng(5).choice([-0.05, 0.0, 0.05], size=(40, 3))
+    return np.cumsum(steps, axis=0)
+
+
+def test_motion_ends_on_its_target_and_goes_on_from_where_the_last_one_ended(knots):
+    first, second = motion_between(knots[0:4], N), motion_between(knots[1:5], N)
+    np.testing.assert_allclose(first.angles[-1], knots[2], atol=1e-12)
+    np.testing.assert_allclose(second.angles[-1], knots[3], atol=1e-12)
+    start = second.angles[0] - first.angles[-1]
+    # Over 2 ms the speed changes by at most 0.002 s times 60 rad/s^2: 0.05 rad from rest to rest in 0.1 s.
+    assert np.abs(start - 0.002 * first.velocities[-1]).max() < 0.5 * 60 * 0.002**2
+
+
+def test_motion_never_leaves_the_interval_between_two_targets(knots):
+    for k in range(len(knots) - 3):
+        angles = motion_between(knots[k : k + 4], N).angles
+        low, high = np.minimum(knots[k + 1], knots[k + 2]), np.maximum(knots[k + 1], knots[k + 2])
+        assert (angles >= low - 1e-12).all()
+        assert (angles <= high + 1e-12).all()
+
+
+def test_joint_that_is_told_to_stop_arrives_at_rest():
+    motion = motion_between(np.array([[0.0], [0.1], [0.2], [0.2]]), N)
+    assert motion.velocities[-1, 0] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_velocity_and_acceleration_are_the_derivatives_of_the_motion(knots):
+    motion = motion_between(knots[3:7], 5000)
+    step = 0.1 / 5000
+    np.testing.assert_allclose(
+        np.gradient(motion.angles, step, axis=0)[1:-1], motion.velocities[1:-1], atol=1e-4
+    )
+    np.testing.assert_allclose(
+        np.gradient(motion.velocities, step, axis=0)[1:-1], motion.accelerations[1:-1], atol=1e-2
+    )
+
+
+def test_feed_forward_is_what_mujocos_own_inverse_dynamics_asks_for(lab, knots):
+    """The set point of a motor pulls a joint that is on its way with exactly the torque the motion needs."""
+    body, middle = lab.body, (lab.kinematics.lower + lab.kinematics.upper) / 2
+    turns = np.tile(knots[:4], (1, 4))[:, : len(middle)]
+    motion = motion_between(middle + turns, N)
+    points = body.set_points(motion)
+    joints = [body.model.joint(f"robot/{name}") for name in body.robot.joints]
+    angles, speeds = [joint.qposadr[0] for joint in joints], [joint.dofadr[0] for joint in joints]
+    data = mujoco.MjData(body.model)
+    stiffness, damping = body.model.actuator_gainprm[:, 0], -body.model.actuator_biasprm[:, 2]
+    for n in (0, 17, 49):
+        data.qpos[angles], data.qvel[speeds] = motion.angles[n], motion.velocities[n]
+        data.qacc[speeds] = motion.accelerations[n]
+        mujoco.mj_inverse(body.model, data)
+        pull = stiffness * (points[n] - motion.angles[n]) - damping * motion.velocities[n]
+        np.testing.assert_allclose(pull, data.qfrc_inverse[speeds], atol=1e-8)
+
+
+def test_hand_without_objects_in_its_way_is_tracked_and_the_motors_limits_hold(
+    lab, evolved_agent, champion_records
+):
+    """The first four seconds of all nine instructions; benchmarks/physics.py does it for whole trials."""
+    errors, away = [], np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]]) / lab.body.robot.plane.scale
+    for number, planar in enumerate(champion_records):
+        if number % 4 not in (0, 3):
+            continue  # nine of eighteen, right and left starts in turn
+        orders = planar_angles(
+            evolved_agent, planar.instruction, planar.alpha[0], planar.discs[0], planar.readings
+        )
+        record = carry_out(
+            lab.body, lab.kinematics, _Orders(orders, 40), planar.instruction, away, lambda _: False
+        )
+        assert record.steps == 40
+        errors.append(record.tracking_error)
+        assert not record.contact.any()
+        used = exertion(record, lab.kinematics, lab.body.robot.limits)
+        assert used.velocity.max() < 1.0
+        assert used.torque.max() <= 1.0
+        assert used.position.max() < 1.001  # the stops are a little soft
+    errors = np.concatenate(errors)
+    assert np.median(errors) <= 0.05e-3
+    assert errors.max() <= 1e-3
+
+
+class _Orders:
+    """The first `n` orders of somebody else."""
+
+    def __init__(self, angles, n):
+        self._angles, self._left = angles, n - 1
+
+    def first(self):
+        return next(self._angles), next(self._angles)
+
+    def after(self):
+        self._left -= 1
+        return next(self._angles) if self._left >= 0 else None
+
+
+def test_torque_never_exceeds_the_motors_limit(lab):
+    body = lab.body
+    body.start(lab.kinematics.rest, np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]]))
+    largest = np.array(body.robot.limits.torque)
+    for _ in range(20):
+        body.advance(lab.kinematics.rest + 10.0)
+        assert (np.abs(body.torques) <= largest).all()
+    assert np.abs(body.torques) == pytest.approx(largest)
+
+
+@pytest.mark.parametrize(
+    ("field", "empty", "missing"), [("limits", None, "motor limits"), ("shapes", (), "contact shapes")]
+)
+def test_robot_of_which_too_little_is_known_is_refused(robot, field, empty, missing):
+    with pytest.raises(
+        NoPhysicsError, match=f"the record of robot 'icub' has no {missing}; play the trial without"
+    ):
+        build_physics_model(dataclasses.replace(robot, **{field: empty}))
