@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import matplotlib as mpl
 import numpy as np
@@ -16,11 +15,12 @@ from numpy.typing import NDArray
 
 from arm2d import ActionWord, Condition, ObjectWord
 from arm2d.drawing import INK, OBJECT_COLOURS
+from evolution.drawings import png_bytes, svg_bytes
 from evolution.evaluation import Evaluation
 from evolution.history import History
 from evolution.storage import write_atomically
+from evolution.style import FAINT, STYLE
 
-FAINT: Final = "#767676"
 BEST_COLOUR: Final = "#1B4F72"
 MEAN_COLOUR: Final = "#8FB3CC"
 # Paper white at 0 % to deep teal at 100 %, lightness falling evenly.
@@ -28,17 +28,6 @@ SUCCESS_COLOURS: Final = ("#F4F4F0", "#BBD6D2", "#5A9FA0", "#12545F")
 SUCCESS_MAP: Final = LinearSegmentedColormap.from_list(
     "success", ["#F7F7F4", "#BBD6D2", "#5A9FA0", "#12545F"]
 )
-STYLE: Final[dict[Any, Any]] = {
-    "font.family": "DejaVu Sans",
-    "font.size": 10.0,
-    "axes.edgecolor": FAINT,
-    "axes.labelcolor": INK,
-    "text.color": INK,
-    "xtick.color": INK,
-    "ytick.color": INK,
-    "svg.fonttype": "path",
-    "svg.hashsalt": "wordarm",
-}
 
 
 def heat_map(evaluation: Evaluation, origin: str) -> Figure:
@@ -142,18 +131,13 @@ def running_median(values: NDArray[np.float64], width: int = 51) -> NDArray[np.f
 
 
 def save_figure(figure: Figure, stem: Path) -> list[Path]:
-    """Write a figure as PNG and SVG beside each other; both paths.
+    """Write a figure as PNG and SVG beside each other; both paths. The SVG stays small, see `drawings`.
 
     Raises:
         OSError: If they cannot be written; then neither is left half-written.
     """
     paths = []
-    for suffix in ("png", "svg"):
-        buffer = io.BytesIO()
-        # Without a date, the same figure is the same file.
-        metadata = {"Date": None} if suffix == "svg" else None
-        with mpl.rc_context(STYLE):
-            figure.savefig(buffer, format=suffix, dpi=200, facecolor="white", metadata=metadata)
+    for suffix, data in (("png", png_bytes(figure)), ("svg", svg_bytes(figure))):
         paths.append(stem.with_name(f"{stem.name}.{suffix}"))
-        write_atomically(paths[-1], buffer.getvalue())
+        write_atomically(paths[-1], data)
     return paths

@@ -16,11 +16,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from evolution.figures import FAINT, INK, STYLE
+from arm2d.drawing import INK
 from evolution.generalisers import Generalisers
 from evolution.report_text import TITLES
 from evolution.results import ConditionResults, Results
 from evolution.settings import N_BEST
+from evolution.style import FAINT, STYLE
 from evolution.subtasks import AgentClass, classify
 
 FULL_COLOUR: Final = "#B0296F"

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED
 from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.figures import FAINT, STYLE
 from evolution.lineage_scores import IN_A_ROW, NEVER, LineageScores, Skills
+from evolution.style import FAINT, STYLE
 
 ROW_HEIGHT: Final = 0.36  # [in]
 GROUP_GAP: Final = 0.34  # [in]

@@ -17,8 +17,8 @@ from arm2d.constants import N_INTER
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.behaviour import Behaviour
 from evolution.events import events_of
-from evolution.figures import FAINT, STYLE
 from evolution.figures_behaviour import head
+from evolution.style import FAINT, STYLE
 from evolution.variance import VarianceShares, bin_times, mean_by_instruction
 
 ACTION_STYLES: Final = ("-", (0, (5, 1.6)), (0, (1.2, 1.4)))

@@ -15,11 +15,13 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from arm2d.drawing import INK
 from evolution import published
-from evolution.figures import FAINT, INK, STYLE, running_median
+from evolution.figures import running_median
 from evolution.figures_generalisers import generalisers_figure
 from evolution.report_text import TITLES
 from evolution.results import ConditionResults, Results
+from evolution.style import FAINT, STYLE
 from evolution.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
 from evolution.transitions import Transition, action_transitions, object_transitions
 
