@@ -20,6 +20,7 @@ from evolution.commands.doctor import Doctor
 from evolution.commands.evaluate import Evaluate
 from evolution.commands.evolve import Evolve, UncheckedReadings
 from evolution.commands.lineage import LineageCommand
+from evolution.commands.measure import Measure
 from evolution.commands.plot import Plot
 from evolution.commands.port import Port
 from evolution.commands.postevaluate import PostEvaluate
@@ -28,6 +29,7 @@ from evolution.commands.report import Report
 from evolution.commands.reproduce import Reproduce
 from evolution.commands.ship import Ship
 from evolution.commands.status import Status
+from evolution.commands.study import StudyCommand
 
 DESCRIPTION: Final = "An arm that obeys two-word instructions: evolve its controllers, test them, show them."
 BAD_INPUT: Final = 2
@@ -40,6 +42,7 @@ Command = (
     | BehaviourCommand
     | Doctor
     | LineageCommand
+    | Measure
     | Plot
     | Port
     | PostEvaluate
@@ -48,6 +51,7 @@ Command = (
     | Reproduce
     | Ship
     | Status
+    | StudyCommand
     | Analyse
 )
 
@@ -87,6 +91,7 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
         | Annotated[Doctor, subcommand("doctor")]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[LineageCommand, subcommand("lineage")]
+        | Annotated[Measure, subcommand("measure")]
         | Annotated[Plot, subcommand("plot")]
         | Annotated[Port, subcommand("port")]
         | Annotated[PostEvaluate, subcommand("postevaluate")]
@@ -95,6 +100,7 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
         | Annotated[Reproduce, subcommand("reproduce", default=Reproduce(readings=readings))]
         | Annotated[Ship, subcommand("ship")]
         | Annotated[Status, subcommand("status")]
+        | Annotated[StudyCommand, subcommand("study")]
         | Annotated[Analyse, subcommand("analyse")]
     )
     return tyro.cli(commands, prog="wordarm", description=DESCRIPTION, args=arguments)  # pyright: ignore

@@ -33,7 +33,7 @@ CHECKPOINT: Final = "checkpoint.npz"
 CHAMPIONS: Final = "champions.npz"
 LOCK: Final = "lock"
 LEASE: Final = "lease"
-ANALYSES: Final = ("postevaluation", "transitions", "evaluation", "lineage", "behaviour")
+ANALYSES: Final = ("postevaluation", "transitions", "evaluation", "lineage", "behaviour", "measures")
 OWN_FILES: Final = {CONFIG, META, PARTS, CHECKPOINT, CHAMPIONS, LOCK, LEASE, *ANALYSES}
 
 

@@ -182,9 +182,7 @@ def _renew(path: Path, mine: Holder, released: threading.Event, on_loss: Callabl
     while not released.wait(RENEWAL):
         with suppress(OSError):
             if (holder := _read(path)[0]) not in (mine, None):
-                on_loss(
-                    f"{holder.host} has taken over {path.parent}; this process ends and writes no more"
-                )
+                on_loss(f"{holder.host} has taken over {path.parent}; this process ends and writes no more")
                 return
             os.utime(path)
             touched = _now()

@@ -1,0 +1,116 @@
+"""`wordarm study`: hundreds of runs that ask one question."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, Literal
+
+from tyro.conf import Positional
+
+from evolution.settings import Settings
+
+if TYPE_CHECKING:
+    from evolution.interrupt import StopRequest
+    from evolution.jobs import Failure
+    from evolution.plan import Plan
+    from evolution.study.variants import Part
+
+BAD_INPUT: Final = 2
+INTERRUPTED: Final = 130
+
+
+@dataclass(frozen=True)
+class StudyCommand:
+    """Evolve under many readings of the paper and compare what each does to the published figures.
+
+    Repeat the command to go on; what is done is not done again. Ctrl-C loses nothing.
+    """
+
+    name: Positional[Literal["readings"]]
+    """The study: readings, what the paper leaves open (docs/readings.md)."""
+
+    part: str = "screening"
+    """screening (3000 generations, one reading at a time and the geometry in depth) or finalists (the whole
+    experiment under the nearest)."""
+
+    output: Path = Path("runs/readings")
+    """Folder of the study; each part has a folder in it."""
+
+    seeds: int | None = None
+    """Runs of each variant and condition, by default what the part asks for."""
+
+    generations: int | None = None
+    """Of each run, by default what the part asks for."""
+
+    jobs: int | None = None
+    """Processes at a time. By default as many as there are processors."""
+
+    now: bool = False
+    """Evolve nothing: tables and pictures of the runs that are measured by now."""
+
+    results: Path | None = None
+    """Folder for tables and pictures, by default results in the part's folder."""
+
+    def run(self) -> int:
+        """Study; the exit code is 130 if it was stopped, 2 if a run was given up or nothing is measured."""
+        from evolution.interrupt import StopRequest
+        from evolution.lock import locked
+        from evolution.plan_runner import processes
+        from evolution.storage import make_folder
+
+        part, plan, at_once = self._part(), self._plan(), processes(self.jobs)
+        failures = ()
+        if not self.now:
+            plan.check()
+            make_folder(plan.folder)
+            with locked(plan.folder), StopRequest() as stop:
+                failures = _evolve_and_measure(plan, at_once, stop)
+                if stop.requested:
+                    print("stopped; go on with the same command")
+                    return INTERRUPTED
+        _write(plan, part, self.results or plan.folder / "results")
+        for each in failures:
+            print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
+        return BAD_INPUT if failures else 0
+
+    def _part(self) -> Part:
+        """The part that is asked for, with the numbers of seeds and generations that are."""
+        from evolution.study.variants import PARTS
+
+        if self.part not in PARTS:
+            raise ValueError(f"unknown part {self.part!r} of the study; there are {', '.join(PARTS)}")
+        part = PARTS[self.part]
+        seeds = part.seeds if self.seeds is None else self.seeds
+        if seeds < 1:
+            raise ValueError(f"asked for {seeds} seeds; there must be at least 1")
+        return replace(part, seeds=seeds, generations=self.generations or part.generations)
+
+    def _plan(self) -> Plan:
+        from evolution.plan import Plan
+
+        part = self._part()
+        configs = part.configs(Settings(generations=part.generations))
+        return Plan(self.output / part.name, tuple(configs), post_evaluate=False)
+
+
+def _evolve_and_measure(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
+    """Run what is not done yet; the jobs that were given up."""
+    from evolution.plan_runner import run_plan_shown
+    from evolution.study.results import measure_runs
+
+    failures = run_plan_shown(plan, at_once, stop)
+    return failures if stop.requested else failures + measure_runs(plan, at_once, stop)
+
+
+def _write(plan: Plan, part: Part, folder: Path) -> None:
+    from evolution.study.results import measured_variants, write_study
+
+    variants = measured_variants(plan)
+    if not variants:
+        raise ValueError(f"no run in {plan.folder} is measured yet; leave --now away to evolve them")
+    for path in write_study(variants, part, folder):
+        print(path)
+    n = sum(len(each.runs) for each in variants)
+    if n < len(plan.configs):
+        print(f"{n} of {len(plan.configs)} runs are measured so far")

@@ -1,0 +1,132 @@
+"""The study in pictures: the effect of every reading on each published figure, and where runs fail."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from arm2d import Condition
+from arm2d.drawing import INK
+from evolution import published
+from evolution.figures import FAINT, STYLE, SUCCESS_MAP
+from evolution.study.table import AREAS, VariantMeasures, interval
+from evolution.subtasks import SUBTASKS, AgentClass
+
+DEFAULT: Final = "default"
+ACCENT: Final = "#0072B2"
+ROW_HEIGHT: Final = 0.27  # [inch]
+
+
+@dataclass(frozen=True)
+class Column:
+    """One published figure: its value for every run, and the value in the paper by condition."""
+
+    title: str
+    values: Callable[[VariantMeasures], NDArray[Any]]
+    published: Callable[[Condition], float | None]
+    limits: tuple[float, float]
+
+
+def _top_share(subtask: str) -> Callable[[VariantMeasures], NDArray[Any]]:
+    return lambda each: 100 * each.top_shares[:, SUBTASKS.index(subtask)]
+
+
+def _published_share(subtask: str) -> Callable[[Condition], float]:
+    column = SUBTASKS.index(subtask)
+    return lambda condition: 100 * published.TABLE_II[condition][-1, column] / published.AGENTS
+
+
+def _with_generalisers(each: VariantMeasures) -> NDArray[Any]:
+    return 100.0 * (each.class_shares(AgentClass.FULL) > 0)
+
+
+def _published_generalisers(condition: Condition) -> float | None:
+    share = 100 * published.RUNS_WITH_GENERALISERS / published.RUNS
+    return share if condition is Condition.WITH_INDICATE else None
+
+
+COLUMNS: Final = (
+    Column("plateau of the\nbest fitness", lambda v: v.plateaus, lambda _: published.PLATEAU, (1.2, 2.65)),
+    Column("runs that solve\nall 28 trials [%]", lambda v: 100.0 * v.solved, lambda _: 100.0, (-4, 104)),
+    Column("category 10 of\nsub-task I [%]", _top_share("I"), _published_share("I"), (-4, 104)),
+    Column("runs with generalists\non all nine [%]", _with_generalisers, _published_generalisers, (-4, 104)),
+)  # fmt: skip
+
+
+def effects_figure(variants: Sequence[VariantMeasures], title: str) -> Figure:
+    """A row per variant, a column per published figure: runs as dots, their mean with a 95 % interval.
+
+    The dashed line is the paper's value, the shaded band the default's interval. Variants of one condition.
+    """
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.6, 1.5 + ROW_HEIGHT * len(variants)), layout="constrained")
+        panels = figure.subplots(1, len(COLUMNS), sharey=True, squeeze=False)[0]
+        for axes, column in zip(panels, COLUMNS, strict=True):
+            _draw_effects(axes, column, variants)
+        labels = [f"{each.name.replace('-', ' ')}  ({len(each.runs)})" for each in variants]
+        panels[0].set_yticks(range(len(variants)), labels, fontsize=8.5)
+        for label, each in zip(panels[0].get_yticklabels(), variants, strict=True):
+            label.set_fontweight("bold" if each.name == DEFAULT else "normal")
+        panels[0].set_ylim(len(variants) - 0.4, -0.6)
+        figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    return figure
+
+
+def _draw_effects(axes: Axes, column: Column, variants: Sequence[VariantMeasures]) -> None:
+    theirs = column.published(variants[0].condition)
+    if theirs is not None:
+        axes.axvline(theirs, color=INK, lw=1.1, ls=(0, (4, 3)), zorder=1)
+    for row, each in enumerate(variants):
+        values = column.values(each)
+        low, high = interval(values)
+        colour = INK if each.name == DEFAULT else ACCENT
+        if each.name == DEFAULT:
+            axes.axvspan(low, high, color=FAINT, alpha=0.13, lw=0, zorder=0)
+        spread = np.linspace(-0.22, 0.22, len(values)) if len(values) > 1 else np.zeros(1)
+        axes.plot(values, row + spread, "o", ms=2.6, color=colour, alpha=0.35, mew=0, zorder=2)
+        axes.plot([low, high], [row, row], color=colour, lw=1.6, zorder=3)
+        axes.plot(values.mean(), row, "o", ms=5.2, color=colour, mec="white", mew=0.7, zorder=4)
+    axes.set_title(column.title, fontsize=9, loc="left")
+    axes.set_xlim(*column.limits)
+    axes.tick_params(axis="y", length=0)
+    axes.tick_params(axis="x", labelsize=8)
+    axes.grid(axis="y", color=FAINT, alpha=0.18, lw=0.5)
+    axes.spines[["top", "right", "left"]].set_visible(False)
+
+
+def failures_figure(variants: Sequence[VariantMeasures], title: str) -> Figure:
+    """A row per variant: mean success of late agents on each instruction from each start area.
+
+    Variants of one condition; never-met instructions are marked with an asterisk.
+    """
+    condition = variants[0].condition
+    never_met = [each not in condition.experienced for each in condition.instructions]
+    names = [
+        f"{instruction}{'*' if new else ''}, {area}"
+        for instruction, new in zip(condition.instructions, never_met, strict=True)
+        for area in AREAS
+    ]
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.6, 2.2 + ROW_HEIGHT * len(variants)), layout="constrained")
+        axes = figure.subplots()
+        shares = np.array([each.success_by_area.ravel() for each in variants])
+        image = axes.imshow(100 * shares, cmap=SUCCESS_MAP, vmin=0, vmax=100, aspect="auto")
+        axes.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=8)
+        axes.set_yticks(
+            range(len(variants)), [each.name.replace("-", " ") for each in variants], fontsize=8.5
+        )
+        for (row, place), share in np.ndenumerate(shares):
+            colour = "white" if share > 0.55 else INK
+            axes.text(place, row, f"{100 * share:.0f}", ha="center", va="center", fontsize=6.5, color=colour)
+        axes.tick_params(length=0)
+        axes.spines[:].set_visible(False)
+        figure.colorbar(image, ax=axes, label="successful trials [%]", shrink=0.6, aspect=25)
+        figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    return figure

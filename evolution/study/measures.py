@@ -1,0 +1,147 @@
+"""What one run is compared by: plateau, first solution, and what its late agents make of nine instructions.
+
+L sampled generations, 5 ranks, 9 instructions, 2 start areas.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import draw_trials, run_trials
+from evolution.analysis import PLATEAU_SHARE
+from evolution.config import RunConfig
+from evolution.evaluation import TRIALS_PER_AREA
+from evolution.folder import RunFolder
+from evolution.history import check_array
+from evolution.postevaluation import N_INSTRUCTIONS, best_genotypes, late_spans
+from evolution.randomness import Purpose, generator
+from evolution.recorded import recorded_history
+from evolution.results import FITNESS_LIMIT, PLATEAU_TOLERANCE
+from evolution.settings import N_BEST
+from evolution.solving import solved_trials
+from evolution.storage import DamagedFileError, make_folder
+from evolution.subtasks import AgentClass, categories, classify
+
+FILE: Final = Path("measures") / "late.npz"
+# Elites live for many generations, so neighbours say little that is new.
+SAMPLE_STEP: Final = 10
+
+
+@dataclass(frozen=True)
+class RunMeasures:
+    """One run in numbers.
+
+    Attributes:
+        config: The run.
+        plateau: Median best fitness over the last sixth of its generations.
+        first_solved: First generation in which one genotype carried out all its trials; -1 if none.
+        solved_late: Share of the last third of generations in which one did.
+        successes: [L, 5, 9, 2], of 40 trials each, from the right and from the left area.
+    """
+
+    config: RunConfig
+    plateau: float
+    first_solved: int
+    solved_late: float
+    successes: NDArray[np.int16]
+
+    @property
+    def at_limit(self) -> bool:
+        """Whether it ends at the paper's 2.57."""
+        return self.plateau >= FITNESS_LIMIT - PLATEAU_TOLERANCE
+
+    @property
+    def agents(self) -> NDArray[np.int16]:
+        """Successes [5 L, 9] of 80, agent by agent."""
+        return self.successes.sum(axis=-1).reshape(-1, N_INSTRUCTIONS)
+
+    @property
+    def top_shares(self) -> NDArray[np.float64]:
+        """Share of agents in category 10 of the sub-tasks I to IV, [4] (Table II)."""
+        return (categories(self.agents, self.config.condition) == 10).mean(axis=0)
+
+    @property
+    def class_shares(self) -> dict[AgentClass, float]:
+        """Share of agents that are fully, partially, not compositional."""
+        members = classify(self.agents, self.config.condition)
+        return {kind: float(each.mean()) for kind, each in members.items()}
+
+    @property
+    def success_by_area(self) -> NDArray[np.float64]:
+        """Share of successful trials of each instruction from each area, [9, 2]: where a run fails."""
+        return self.successes.mean(axis=(0, 1)) / TRIALS_PER_AREA
+
+
+def measure(folder: RunFolder) -> RunMeasures:
+    """The measures of a finished run; what had to be simulated is kept beside it.
+
+    Raises:
+        ValueError: If the run is not finished.
+        DamagedFileError: If a file of it is damaged.
+    """
+    if len(folder.finished_spans()) < len(folder.spans):
+        raise ValueError(f"{folder.path} is not finished; go on with: wordarm study")
+    successes = _late_successes(folder)
+    solved, best = solved_trials(folder), recorded_history(folder).best
+    n_trials = 2 * folder.config.settings.trials_per_area * len(folder.config.condition.experienced)
+    all_solved = solved == n_trials
+    first_late = late_spans(folder)[0].start
+    return RunMeasures(
+        config=folder.config,
+        plateau=float(np.median(best[-max(1, round(len(best) * PLATEAU_SHARE)) :])),
+        first_solved=int(np.argmax(all_solved)) if all_solved.any() else -1,
+        solved_late=float(all_solved[first_late:].mean()),
+        successes=successes,
+    )
+
+
+def is_measured(path: Path) -> bool:
+    """Whether what has to be simulated is there."""
+    return (path / FILE).exists()
+
+
+def sampled_generations(folder: RunFolder) -> list[int]:
+    """Every tenth of the late generations."""
+    return [g for span in late_spans(folder) for g in span if g % SAMPLE_STEP == 0]
+
+
+def _late_successes(folder: RunFolder) -> NDArray[np.int16]:
+    path, shape = folder.path / FILE, (len(sampled_generations(folder)), N_BEST, N_INSTRUCTIONS, 2)
+    if path.exists():
+        try:
+            arrays = folder.read_arrays(path)
+            check_array(path, arrays, "successes", shape, np.dtype(np.int16))
+        except DamagedFileError as error:
+            raise DamagedFileError(path, error.found, "remove it and repeat the command") from None
+        return arrays["successes"]
+    successes = _simulate(folder)
+    make_folder(path.parent)
+    generations = np.array(sampled_generations(folder), np.int32)
+    folder.write_arrays(path, {"generations": generations, "successes": successes})
+    return successes
+
+
+def _simulate(folder: RunFolder) -> NDArray[np.int16]:
+    successes = [
+        _successes_of(folder.config, generation, genotypes)
+        for span in late_spans(folder)
+        for generation, genotypes in best_genotypes(folder, span)
+        if generation % SAMPLE_STEP == 0
+    ]
+    return np.array(successes, np.int16).reshape(-1, N_BEST, N_INSTRUCTIONS, 2)
+
+
+def _successes_of(config: RunConfig, generation: int, genotypes: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Successes [5, 9, 2] of a generation's best, each agent in trials of its own."""
+    rng = generator(config.seed, Purpose.POST_EVALUATION, generation)
+    successes = []
+    for genotype in genotypes:
+        trials = draw_trials(config.condition.instructions, TRIALS_PER_AREA, config.readings, rng)
+        success = run_trials(genotype, trials, config.readings).success
+        successes.append(success.reshape(N_INSTRUCTIONS, 2, TRIALS_PER_AREA).sum(axis=-1))
+    return np.array(successes)

@@ -1,0 +1,83 @@
+"""The study's results as files: rows per run and per variant, pictures per condition."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Final
+
+from arm2d import Condition
+from evolution.figures import save_figure
+from evolution.figures_paper import TITLES
+from evolution.folder import RunFolder
+from evolution.interrupt import StopRequest
+from evolution.jobs import Failure, Watcher, run_jobs
+from evolution.plan import LOGS, Plan
+from evolution.result_files import to_csv
+from evolution.standing import Standing
+from evolution.storage import make_folder, write_atomically
+from evolution.study.figure import effects_figure, failures_figure
+from evolution.study.measures import is_measured, measure
+from evolution.study.table import VariantMeasures, group, run_rows, variant_rows
+from evolution.study.variants import Part
+from evolution.warm_workers import WarmStart
+from evolution.workers import Job
+
+MEASURING: Final = "measuring"
+
+
+def measure_runs(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
+    """Measure the runs that are evolved but not measured yet; the jobs that were given up."""
+    chains = [[_job(plan, each)] for each in plan.standings() if _lacks_measures(plan, each)]
+    if not chains:
+        return ()
+    print(f"measuring {len(chains)} runs", flush=True)
+    watcher = Watcher(on_note=lambda note: print(note, flush=True), wants_stop=lambda: stop.requested)
+    with WarmStart(plan.folder / LOGS / "workers.log") as warm:
+        return run_jobs(chains, at_once, watcher, warm)
+
+
+def _lacks_measures(plan: Plan, standing: Standing) -> bool:
+    return standing.evolved and not is_measured(plan.path(standing.config))
+
+
+def _job(plan: Plan, standing: Standing) -> Job:
+    path = plan.path(standing.config)
+    log = plan.folder / LOGS / "measures.log"
+    return Job(standing.name, MEASURING, ("measure", str(path)), path, log)
+
+
+def measured_variants(plan: Plan) -> list[VariantMeasures]:
+    """All runs that are measured, by variant.
+
+    Raises:
+        DamagedFileError: If a file of one of them is damaged.
+    """
+    ready = [each for each in plan.configs if is_measured(plan.path(each))]
+    return group(
+        (plan.variants[each.readings, each.settings], measure(RunFolder.open(plan.path(each))))
+        for each in ready
+    )
+
+
+def write_study(variants: Sequence[VariantMeasures], part: Part, folder: Path) -> Iterable[Path]:
+    """Write tables, and both pictures for each condition; their paths."""
+    make_folder(folder)
+    for name, rows in (("variants", variant_rows(variants)), ("runs", run_rows(variants))):
+        path = folder / f"{part.name}-{name}.csv"
+        write_atomically(path, to_csv(rows).encode())
+        yield path
+    for condition in Condition:
+        own = [each for each in variants if each.condition is condition]
+        if own:
+            yield from _write_figures(own, part, condition, folder)
+
+
+def _write_figures(
+    variants: Sequence[VariantMeasures], part: Part, condition: Condition, folder: Path
+) -> Iterable[Path]:
+    about = f"{TITLES[condition]}, {variants[0].generations} generations"
+    effects = effects_figure(variants, f"What each reading changes ({about}; runs in brackets)")
+    yield from save_figure(effects, folder / f"{part.name}-{condition}-effects")
+    failures = failures_figure(variants, f"What late agents carry out ({about}; * never met)")
+    yield from save_figure(failures, folder / f"{part.name}-{condition}-failures")

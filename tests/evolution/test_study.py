@@ -1,0 +1,139 @@
+"""The study of readings: its variants, what runs are measured by, its tables and pictures."""
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from arm2d import Condition, Readings
+from arm2d.readings import choices
+from evolution.config import RunConfig
+from evolution.folder import RunFolder
+from evolution.postevaluation import post_evaluate
+from evolution.result_files import to_csv
+from evolution.run import evolve
+from evolution.settings import Settings
+from evolution.solving import solved_trials
+from evolution.storage import DamagedFileError
+from evolution.study.figure import effects_figure, failures_figure
+from evolution.study.measures import FILE, measure
+from evolution.study.table import group, run_rows, variant_rows
+from evolution.study.variants import FACTORS, PARTS
+
+LEDGER = (Path(__file__).parents[2] / "docs" / "ledger.md").read_text(encoding="utf-8")
+SETTINGS = Settings(population=12, elites=2, parents=6, generations=40)
+
+
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory):
+    """Four short runs of two worlds, named and measured."""
+    path, named = tmp_path_factory.mktemp("study"), []
+    for name, readings in (("default", Readings()), ("object-radius-8", Readings(object_radius=8.0))):
+        for seed in (2, 1):
+            folder = path / name / f"seed-{seed:04d}"
+            evolve(folder, RunConfig(Condition.WITH_INDICATE, seed, SETTINGS, readings))
+            named.append((name, measure(RunFolder.open(folder))))
+    return path, named
+
+
+def listed_numbers():
+    """(reading, its alternative) for every number of the ledger that is not a default."""
+    rows = re.findall(r"^\| `(\w+)` \| .*? \| (.*?) \| .*? \|$", LEDGER, re.MULTILINE)
+    return [(name, text) for name, values in rows for text in re.findall(r"`([\d., ]+)`", values)]
+
+
+def test_every_alternative_of_the_ledger_is_tried():
+    tried = {(name, value) for overrides in FACTORS for name, value in overrides.items()}
+    words = {
+        (name, value)
+        for name, allowed in choices().items()
+        for value in allowed
+        if value != getattr(Readings(), name)
+    }
+    # Under With-Indicate no instruction is IGNORE.
+    assert words - tried == {("ignore_stops", "never")}
+    for name, text in listed_numbers():
+        numbers = tuple(float(part) for part in text.split(","))
+        assert (name, numbers if name == "sector_centres" else numbers[0]) in tried
+
+
+@pytest.mark.parametrize("part", PARTS.values(), ids=lambda part: part.name)
+def test_variants_are_distinct_worlds_beside_the_default(part):
+    configs = part.configs(Settings(generations=part.generations))
+    assert len(set(configs)) == len(configs) == part.seeds * len(part.conditions) * (1 + len(part.variants))
+    assert sum(each.readings == Readings() for each in configs) == part.seeds * len(part.conditions)
+
+
+def test_sampled_agents_are_those_of_the_post_evaluation(measured):
+    path, named = measured
+    run = RunFolder.open(path / "default" / "seed-0002")
+    whole = post_evaluate(run)
+    tenth = np.flatnonzero(whole.generations % 10 == 0)
+    np.testing.assert_array_equal(named[0][1].successes.sum(axis=-1), whole.successes[tenth])
+
+
+def test_measures_say_when_a_run_first_solved_all_trials(measured):
+    path, named = measured
+    solved = solved_trials(RunFolder.open(path / "default" / "seed-0002"))
+    assert (named[0][1].first_solved >= 0) == bool((solved == 28).any())
+    assert named[0][1].solved_late == (solved[26:] == 28).mean()
+
+
+def test_measures_are_kept_and_damage_is_named(measured):
+    path, _ = measured
+    run = RunFolder.open(path / "object-radius-8" / "seed-0001")
+    kept = measure(run)
+    file = run.path / FILE
+    before = file.read_bytes()
+    np.testing.assert_array_equal(measure(run).successes, kept.successes)
+    file.write_bytes(before[:-30])
+    with pytest.raises(DamagedFileError, match="remove it and repeat the command"):
+        measure(run)
+    file.write_bytes(before)
+
+
+def test_unfinished_run_is_not_measured(tmp_path):
+    run = RunFolder.create(tmp_path / "run", RunConfig(settings=SETTINGS))
+    with pytest.raises(ValueError, match="is not finished; go on with"):
+        measure(run)
+
+
+def test_runs_are_put_together_by_variant_and_ordered_by_seed(measured):
+    variants = group(measured[1])
+    assert [each.name for each in variants] == ["default", "object-radius-8"]
+    assert [[run.config.seed for run in each.runs] for each in variants] == [[1, 2], [1, 2]]
+
+
+def test_rows_hold_what_was_measured(measured):
+    variants = group(measured[1])
+    runs = list(csv.DictReader(to_csv(run_rows(variants)).splitlines()))
+    assert [row["seed"] for row in runs] == ["1", "2", "1", "2"]
+    assert float(runs[0]["plateau"]) == pytest.approx(variants[0].runs[0].plateau, abs=1e-4)
+    one, other = csv.DictReader(to_csv(variant_rows(variants)).splitlines())
+    mean = np.mean([float(row["plateau"]) for row in runs[2:]])
+    assert float(other["plateau"]) == pytest.approx(mean, abs=1e-4)
+    assert float(one["plateau low"]) <= float(one["plateau"]) <= float(one["plateau high"])
+
+
+def test_weakest_instruction_is_the_least_carried_out_of_the_experienced(measured):
+    (variant, _) = group(measured[1])
+    instruction, area, success = variant.weakest
+    order = variant.condition.instructions
+    assert instruction in variant.condition.experienced
+    assert success == variant.success_by_area[order.index(instruction), ("right", "left").index(area)]
+    known = [order.index(each) for each in variant.condition.experienced]
+    assert success == variant.success_by_area[known].min()
+
+
+def test_figures_show_every_variant_and_the_published_values(measured):
+    variants = group(measured[1])
+    effects = effects_figure(variants, "title")
+    labels = [label.get_text() for label in effects.axes[0].get_yticklabels()]
+    assert labels == ["default  (2)", "object radius 8  (2)"]
+    dashed = [line.get_xdata()[0] for line in effects.axes[2].lines if line.get_linestyle() == "--"]
+    assert dashed == [pytest.approx(60.231)]
+    failures = failures_figure(variants, "title")
+    (image,) = failures.axes[0].images
+    np.testing.assert_allclose(image.get_array()[1], 100 * variants[1].success_by_area.ravel())
