@@ -178,7 +178,8 @@ def _check_geometry(readings: Readings) -> None:
 def _check_interval(name: str, value: float, low: float, high: float) -> None:
     """Refuse a number outside [low, high], NaN included."""
     if not low <= value <= high:
-        raise ValueError(f"reading {name} = {value:g} must lie in [{low:g}, {high:g}]")
+        shown = f"{value:g}" if isinstance(value, float) else str(value)
+        raise ValueError(f"reading {name} = {shown} must lie in [{low:g}, {high:g}]")
 
 
 def _check_type(name: str, value: Any) -> None:
@@ -189,7 +190,7 @@ def _check_type(name: str, value: Any) -> None:
     elif isinstance(default, float):
         fits = isinstance(value, (int, float)) and not isinstance(value, bool)
     else:
-        fits = isinstance(value, (list, tuple)) and all(isinstance(v, (int, float)) for v in value)
+        fits = isinstance(value, (list, tuple)) and all(type(v) in (int, float) for v in value)
     if not fits:
         raise ValueError(f"reading {name} = {value!r} is not of the kind of its default {default!r}")
 

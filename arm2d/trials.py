@@ -17,6 +17,8 @@ from arm2d.arithmetic import sin_cos
 from arm2d.instructions import ActionWord, Instruction, ObjectWord
 from arm2d.readings import Readings
 
+MOST_PER_AREA = 100_000
+
 
 @dataclass(frozen=True)
 class LabelChanges:
@@ -177,6 +179,8 @@ def draw_trials(
             f"asked for {per_area} trials per area of {len(instructions)} instructions; "
             "both must be at least 1"
         )
+    if per_area > MOST_PER_AREA:
+        raise ValueError(f"asked for {per_area} trials per area; at most {MOST_PER_AREA} fit into the memory")
     n = len(instructions)
     low, high = np.array(readings.start_intervals).T  # [2 areas]
     draws = rng.random((n, 2, per_area, 1 + c.N_OBJECTS))

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
 from evolution.folder import CHECKPOINT, RunFolder
-from evolution.history import History, check_array, history_from_arrays
+from evolution.history import History, check_array, check_range, history_from_arrays
 from evolution.population import Population
 
 
@@ -39,11 +42,20 @@ def load_checkpoint(folder: RunFolder) -> Checkpoint | None:
     path = folder.path / CHECKPOINT
     if not path.exists():
         return None
-    arrays = folder.read_arrays(path)
-    n_genotypes = folder.config.settings.population
+    with folder.repairable(path):
+        return _checked(folder, path, folder.read_arrays(path))
+
+
+def _checked(folder: RunFolder, path: Path, arrays: Mapping[str, NDArray]) -> Checkpoint:
+    """A checkpoint from its arrays; refused if they are not those of a checkpoint of the run."""
+    settings = folder.config.settings
+    n_genotypes = settings.population
     check_array(path, arrays, "generation", (), np.dtype(np.int64))
     check_array(path, arrays, "next_genotypes", (n_genotypes, N_GENES), np.dtype(np.float64))
     check_array(path, arrays, "next_parents", (n_genotypes,), np.dtype(np.int64))
+    check_range(path, arrays, "generation", 0, settings.generations)
+    check_range(path, arrays, "next_genotypes", 0.0, 1.0)
+    check_range(path, arrays, "next_parents", -1, n_genotypes - 1)
     generation = int(arrays["generation"])
     population = Population(generation, arrays["next_genotypes"], arrays["next_parents"])
     # Once the run is over, its last generation stands in a part, and nothing is unfinished.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
@@ -11,6 +10,7 @@ import tomli_w
 
 from arm2d import Condition, Readings
 from evolution.settings import Settings
+from evolution.toml import read_toml
 
 # Raised when an older reader could misunderstand the file.
 FORMAT: Final = 1
@@ -50,8 +50,10 @@ class RunConfig:
         settings, readings = values.get("settings", {}), values.get("readings", {})
         if not isinstance(settings, Mapping) or not isinstance(readings, Mapping):
             raise ValueError("settings and readings must be tables, such as [settings]")
+        if not isinstance(values["condition"], str):
+            raise ValueError(f"condition = {values['condition']!r} must be one of {', '.join(Condition)}")
         return cls(
-            Condition.parse(str(values["condition"])),
+            Condition.parse(values["condition"]),
             values["seed"],
             Settings.from_mapping(settings),
             Readings.from_mapping(readings),
@@ -64,11 +66,7 @@ class RunConfig:
         Raises:
             ValueError: As `from_mapping`, and if the text is not TOML.
         """
-        try:
-            values = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as error:
-            raise ValueError(f"this is not TOML: {error}") from None
-        return cls.from_mapping(values)
+        return cls.from_mapping(read_toml(text))
 
     def to_mapping(self) -> dict[str, Any]:
         """Every value in plain form."""
@@ -98,7 +96,7 @@ def _check_keys(values: Mapping[str, Any]) -> None:
     for key in ("format", "condition", "seed"):
         if key not in values:
             raise ValueError(f"{key} is missing; a run needs format, condition and seed")
-    if values["format"] != FORMAT:
+    if values["format"] != FORMAT or type(values["format"]) is not int:
         raise ValueError(f"format {values['format']!r} is not known here; this version reads format {FORMAT}")
 
 

@@ -7,6 +7,8 @@ belongs to, so that a file of another run is not taken for one of this.
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -24,6 +26,7 @@ from evolution.storage import (
     write_arrays,
     write_atomically,
 )
+from evolution.toml import read_toml_file
 
 GENERATIONS_PER_PART: Final = 100
 CONFIG: Final = "config.toml"
@@ -62,7 +65,7 @@ class RunFolder:
         if not config.is_file():
             raise ValueError(f"{path} holds no run: {CONFIG} is missing; start one with: wordarm evolve")
         try:
-            return cls(path, RunConfig.from_toml(config.read_text(encoding="utf-8")))
+            return cls(path, RunConfig.from_mapping(read_toml_file(config)))
         except ValueError as error:
             raise ValueError(
                 f"{config} cannot be read: {error}; remove it and repeat the command that started the run"
@@ -138,15 +141,20 @@ class RunFolder:
         Raises:
             DamagedFileError: If the file is not what was written, or is another run's.
         """
-        try:
+        with self.repairable(path):
             arrays = read_arrays(path)
             if str(arrays.pop("config_sha256", "")) != self.identity:
                 raise DamagedFileError(path, f"it does not belong to this {CONFIG}")
-        except DamagedFileError as error:
-            raise DamagedFileError(
-                path, error.found, f"put it right with: wordarm repair {self.path}"
-            ) from None
         return arrays
+
+    @contextmanager
+    def repairable(self, path: Path) -> Iterator[None]:
+        """While open, errors of a damaged file tell how to repair it."""
+        try:
+            yield
+        except DamagedFileError as error:
+            next_move = f"put it right with: wordarm repair {self.path}"
+            raise DamagedFileError(path, error.found, next_move) from None
 
     def write_arrays(self, path: Path, arrays: dict[str, NDArray]) -> None:
         """Write arrays to one of this run's files."""

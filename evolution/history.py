@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,9 @@ from evolution.algorithm import mean_in_order, rank
 from evolution.population import Population
 from evolution.settings import N_BEST
 from evolution.storage import DamagedFileError
+
+# F1, F2 and F3 are at most 1 each.
+LARGEST_FITNESS: Final = 3.0
 
 
 @dataclass(frozen=True)
@@ -119,6 +123,10 @@ def history_from_arrays(path: Path, arrays: Mapping[str, NDArray], span: range, 
     history = History(*(arrays[name] for name in expected))
     if history.generations.tolist() != list(span):
         raise DamagedFileError(path, f"its generations are not {span.start} to {span.stop - 1}")
+    for name in ("fitness", "best", "mean", "median", "worst"):
+        check_range(path, arrays, name, 0.0, LARGEST_FITNESS)
+    check_range(path, arrays, "parents", -1, n_genotypes - 1)
+    check_range(path, arrays, "best_genotypes", 0.0, 1.0)
     return history
 
 
@@ -131,3 +139,10 @@ def check_array(
     array = arrays[name]
     if array.shape != shape or array.dtype != dtype:
         raise DamagedFileError(path, f"its {name} is {array.dtype} {array.shape}, not {dtype} {shape}")
+
+
+def check_range(path: Path, arrays: Mapping[str, NDArray], name: str, low: float, high: float) -> None:
+    """Refuse a file with a number in array `name` that lies outside [low, high], or is none."""
+    array = arrays[name]
+    if not ((array >= low) & (array <= high)).all():  # False for NaN
+        raise DamagedFileError(path, f"its {name} are not all in [{low:g}, {high:g}]")

@@ -15,6 +15,7 @@ from evolution.lease import RunInUseError, leased
 
 __all__ = ["RunInUseError", "locked"]
 
+LONGEST_NUMBER: Final = 20
 # What file systems answer that keep no locks.
 NO_LOCKS: Final = (errno.ENOSYS, errno.ENOLCK, errno.ENOTSUP)
 
@@ -42,7 +43,7 @@ def _lock(file: TextIO, folder: Path) -> bool:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         file.seek(0)
-        holder = file.read().strip() or "unknown"
+        holder = file.read(LONGEST_NUMBER).strip() or "unknown"
         raise RunInUseError(
             f"another process (number {holder}) works on {folder}; "
             "wait until it ends, or choose another folder"

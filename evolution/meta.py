@@ -52,9 +52,11 @@ def read_meta(path: Path) -> dict[str, Any]:
     """What was noted before; nothing, if the file is missing or damaged: no result depends on it."""
     try:
         meta = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {"starts": []}
-    return meta if isinstance(meta, dict) and isinstance(meta.get("starts"), list) else {"starts": []}
+    starts = meta.get("starts") if isinstance(meta, dict) else None
+    sound = isinstance(starts, list) and all(isinstance(each, dict) for each in starts)
+    return meta if sound else {"starts": []}
 
 
 def note_start(path: Path, generation: int) -> None:

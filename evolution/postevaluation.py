@@ -21,10 +21,10 @@ from arm2d import draw_trials, run_trials
 from evolution.config import RunConfig
 from evolution.evaluation import TRIALS_PER_AREA
 from evolution.folder import RunFolder
-from evolution.history import History, check_array
+from evolution.history import History, check_array, check_range
 from evolution.randomness import Purpose, generator
 from evolution.settings import N_BEST
-from evolution.storage import DamagedFileError, make_folder
+from evolution.storage import make_folder
 
 FOLDER: Final = "postevaluation"
 N_INSTRUCTIONS: Final = 9
@@ -72,7 +72,7 @@ def post_evaluate(folder: RunFolder, report: Callable[[int, int], None] | None =
     make_folder(folder.path / FOLDER)
     for done, span in enumerate(spans, 1):
         if not part_path(folder, span).exists():
-            _write(folder, span, _evaluate_part(folder, span))
+            write_part(folder, span)
         if report:
             report(done, len(spans))
     return read_post_evaluation(folder)
@@ -114,12 +114,14 @@ def evaluate_agents(config: RunConfig, generation: int, genotypes: NDArray[np.fl
     return successes
 
 
-def _evaluate_part(folder: RunFolder, span: range) -> PostEvaluation:
+def write_part(folder: RunFolder, span: range) -> None:
+    """Evaluate the agents of some generations and keep the results."""
     successes = [
         evaluate_agents(folder.config, generation, genotypes)
         for generation, genotypes in best_genotypes(folder, span)
     ]
-    return PostEvaluation(np.array(span, np.int32), np.array(successes))
+    arrays = {"generations": np.array(span, np.int32), "successes": np.array(successes)}
+    folder.write_arrays(part_path(folder, span), arrays)
 
 
 def best_genotypes(folder: RunFolder, span: range) -> Iterator[tuple[int, NDArray[np.float64]]]:
@@ -130,22 +132,15 @@ def best_genotypes(folder: RunFolder, span: range) -> Iterator[tuple[int, NDArra
         yield int(history.generations[row]), history.best_genotypes[row]
 
 
-def _write(folder: RunFolder, span: range, part: PostEvaluation) -> None:
-    folder.write_arrays(
-        part_path(folder, span), {"generations": part.generations, "successes": part.successes}
-    )
-
-
 def read_part(folder: RunFolder, span: range) -> PostEvaluation:
     """The results of some generations; raises as `read_post_evaluation`."""
     path = part_path(folder, span)
     if not path.exists():
         raise ValueError(f"{path} is missing; go on with: wordarm postevaluate {folder.path}")
-    try:
+    with folder.repairable(path):
         arrays = folder.read_arrays(path)
         check_array(path, arrays, "generations", (len(span),), np.dtype(np.int32))
         check_array(path, arrays, "successes", (len(span), N_BEST, N_INSTRUCTIONS), np.dtype(np.int16))
-    except DamagedFileError as error:
-        next_move = f"remove it and repeat: wordarm postevaluate {folder.path}"
-        raise DamagedFileError(path, error.found, next_move) from None
+        check_range(path, arrays, "generations", span.start, span.stop - 1)
+        check_range(path, arrays, "successes", 0, TRIALS)
     return PostEvaluation(arrays["generations"], arrays["successes"])

@@ -1,13 +1,14 @@
-"""Compute the damaged or missing files of a run again."""
+"""Compute the damaged or missing files of a run again, its tests included."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
 
+from evolution import postevaluation, solving, transition_test
 from evolution.champion import keep_champions
 from evolution.checkpoint import load_checkpoint
-from evolution.folder import CHAMPIONS, CHECKPOINT, RunFolder
+from evolution.folder import CHAMPIONS, RunFolder
 from evolution.history import HistoryBuilder
 from evolution.lock import locked
 from evolution.population import Population, first_population, next_population
@@ -15,13 +16,17 @@ from evolution.replay import replay
 from evolution.scoring import score_population
 from evolution.storage import DamagedFileError
 
+Tell = Callable[[str], None]
 
-def repair(path: Path, on_note: Callable[[str], None] = lambda note: None) -> int:
+
+def repair(path: Path, on_note: Tell = lambda note: None) -> int:
     """Make every file of a run sound again, with the bits it had before.
+
+    Tests that were not yet made are left to `wordarm postevaluate`.
 
     Args:
         path: The run folder.
-        on_note: Is told of each repair in a sentence.
+        on_note: Is told of each repair in a sentence, with the file and what was wrong with it.
 
     Returns:
         How many files were repaired.
@@ -33,22 +38,24 @@ def repair(path: Path, on_note: Callable[[str], None] = lambda note: None) -> in
     """
     folder = RunFolder.open(path)
     with locked(path):
-        return _repair_parts(folder, on_note) + _repair_rest(folder, on_note)
+        n_repaired = _repair_parts(folder, on_note) + _repair_checkpoint(folder, on_note)
+        if len(folder.finished_spans()) == len(folder.spans):
+            n_repaired += _repair_champions(folder, on_note) + _repair_tests(folder, on_note)
+        return n_repaired
 
 
-def _repair_parts(folder: RunFolder, on_note: Callable[[str], None]) -> int:
+def _repair_parts(folder: RunFolder, on_note: Tell) -> int:
     """Walk through all parts up to the last one there is; compute those anew that cannot be read."""
     present = [span for span in folder.spans if folder.part_path(span).exists()]
     population, n_repaired = first_population(folder.config), 0
     for span in folder.spans[: folder.spans.index(present[-1]) + 1] if present else []:
-        try:
-            history = folder.read_part(span)
-        except (DamagedFileError, FileNotFoundError):
+        if found := _fault(lambda span=span: folder.read_part(span)):
             population = _score_part(folder, span, population)
-            on_note(f"computed generations {span.start} to {span.stop - 1} again")
+            name = folder.part_path(span).name
+            on_note(f"{name}: {found}; computed generations {span.start} to {span.stop - 1} again")
             n_repaired += 1
         else:
-            population = replay(population, history, folder.config)
+            population = replay(population, folder.read_part(span), folder.config)
     return n_repaired
 
 
@@ -63,26 +70,51 @@ def _score_part(folder: RunFolder, span: range, population: Population) -> Popul
     return population
 
 
-def _repair_rest(folder: RunFolder, on_note: Callable[[str], None]) -> int:
-    """Drop a damaged checkpoint, which the parts replace; choose lost champions again."""
-    n_repaired = 0
+def _repair_checkpoint(folder: RunFolder, on_note: Tell) -> int:
+    """Drop a damaged checkpoint, which the parts replace."""
     try:
         load_checkpoint(folder)
     except DamagedFileError as error:
         error.path.unlink()
-        on_note(f"removed the damaged {CHECKPOINT}; the run will go on from its parts")
-        n_repaired += 1
-    if len(folder.finished_spans()) == len(folder.spans) and not _sound_champions(folder):
+        on_note(f"{error.path.name}: {error.found}; removed it, for the run can go on from its parts")
+        return 1
+    return 0
+
+
+def _repair_champions(folder: RunFolder, on_note: Tell) -> int:
+    """Choose lost champions again."""
+    path = folder.path / CHAMPIONS
+    if found := _fault(lambda: folder.read_arrays(path)):
         keep_champions(folder)
-        on_note(f"wrote {CHAMPIONS} again")
+        on_note(f"{CHAMPIONS}: {found}; chose them again")
+        return 1
+    return 0
+
+
+def _repair_tests(folder: RunFolder, on_note: Tell) -> int:
+    """Make again what is damaged of both tests: first the instructions, on which the transitions rest."""
+    n_repaired = 0
+    for test in (postevaluation, transition_test):
+        for span in postevaluation.late_spans(folder):
+            path = test.part_path(folder, span)
+            if path.exists() and (found := _fault(lambda test=test, span=span: test.read_part(folder, span))):
+                test.write_part(folder, span)
+                on_note(f"{path.parent.name}/{path.name}: {found}; tested its agents again")
+                n_repaired += 1
+    path = solving.file_path(folder)
+    if path.exists() and (found := _fault(lambda: solving.read_solved_trials(folder))):
+        solving.write_solved_trials(folder)
+        on_note(f"{path.name}: {found}; counted the trials again")
         n_repaired += 1
     return n_repaired
 
 
-def _sound_champions(folder: RunFolder) -> bool:
-    """Whether champions.npz is there as it was written."""
+def _fault(read: Callable[[], object]) -> str:
+    """What is wrong with a file, or nothing."""
     try:
-        folder.read_arrays(folder.path / CHAMPIONS)
-    except (DamagedFileError, FileNotFoundError):
-        return False
-    return True
+        read()
+    except DamagedFileError as error:
+        return error.found
+    except FileNotFoundError:
+        return "it is missing"
+    return ""

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from arm2d import run_trials
 from evolution.config import RunConfig
 from evolution.folder import RunFolder
-from evolution.history import check_array
+from evolution.history import check_array, check_range
 from evolution.postevaluation import FOLDER
 from evolution.randomness import Purpose, generator
 from evolution.recorded import recorded_histories
 from evolution.scoring import draw_evolution_trials
-from evolution.storage import DamagedFileError, make_folder
+from evolution.storage import make_folder
 
 FILE: Final = "solved.npz"
 
@@ -30,14 +30,28 @@ def solved_trials(folder: RunFolder) -> NDArray[np.int16]:
     Raises:
         DamagedFileError: If a file of the run is damaged.
     """
-    path, n = _path(folder), folder.config.settings.generations
-    if path.exists():
-        try:
-            arrays = folder.read_arrays(path)
-            check_array(path, arrays, "solved", (n,), np.dtype(np.int16))
-        except DamagedFileError as error:
-            raise DamagedFileError(path, error.found, "remove it and repeat the command") from None
-        return arrays["solved"]
+    if file_path(folder).exists():
+        return read_solved_trials(folder)
+    return write_solved_trials(folder)
+
+
+def read_solved_trials(folder: RunFolder) -> NDArray[np.int16]:
+    """The same of a run for which it was computed.
+
+    Raises:
+        DamagedFileError: If the file is damaged.
+    """
+    path, settings = file_path(folder), folder.config.settings
+    most = len(folder.config.condition.experienced) * 2 * settings.trials_per_area
+    with folder.repairable(path):
+        arrays = folder.read_arrays(path)
+        check_array(path, arrays, "solved", (settings.generations,), np.dtype(np.int16))
+        check_range(path, arrays, "solved", 0, most)
+    return arrays["solved"]
+
+
+def write_solved_trials(folder: RunFolder) -> NDArray[np.int16]:
+    """Compute it and keep it."""
     solved = np.array(
         [
             _most_carried_out(genotypes, folder.config, int(generation))
@@ -46,12 +60,13 @@ def solved_trials(folder: RunFolder) -> NDArray[np.int16]:
         ],
         np.int16,
     )
-    make_folder(path.parent)
-    folder.write_arrays(path, {"solved": solved})
+    make_folder(file_path(folder).parent)
+    folder.write_arrays(file_path(folder), {"solved": solved})
     return solved
 
 
-def _path(folder: RunFolder) -> Path:
+def file_path(folder: RunFolder) -> Path:
+    """Where it is kept."""
     return folder.path / FOLDER / FILE
 
 

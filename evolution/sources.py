@@ -20,6 +20,7 @@ from evolution.replay import population_at
 from evolution.settings import N_BEST
 
 SHIPPED: Final = Path(__file__).parent / "champions"
+PROVENANCE: Final = ("generations", "ranks")
 
 
 @dataclass(frozen=True)
@@ -129,10 +130,15 @@ def _pick(
     if not 0 <= rank < len(genotypes):
         raise ValueError(f"rank {rank} does not exist in {path}; there are {len(genotypes)}, numbered from 0")
     origin = f"{path.name}, number {rank}"
-    if {"config", "generations", "ranks"} <= arrays.keys():
-        origin = _describe(config, int(arrays["generations"][rank]), int(arrays["ranks"][rank]))
+    if "config" in arrays and all(_numbers_each(arrays.get(each), genotypes) for each in PROVENANCE):
+        origin = _describe(config, *(int(arrays[each][rank]) for each in PROVENANCE))
     name = ("champion" if folder else path.stem) + (f"-{rank}" if rank else "")
     return Source(genotypes[rank], config.condition, config.readings, origin, name, folder)
+
+
+def _numbers_each(array: NDArray | None, genotypes: NDArray) -> bool:
+    """Whether an array has a whole number for each genotype."""
+    return array is not None and array.shape == (len(genotypes),) and array.dtype.kind in "iu"
 
 
 def _describe(config: RunConfig, generation: int, rank: int) -> str:

@@ -88,7 +88,7 @@ def _rows(path: Path) -> Iterable[tuple[str, float, float, float]]:
     """(stage, wall, cpu, peak) of every sound line."""
     try:
         lines = list(csv.reader(path.read_text(encoding="utf-8", errors="replace").splitlines()))
-    except OSError:
+    except (OSError, csv.Error):
         return
     for line in lines:
         try:

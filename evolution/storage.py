@@ -6,16 +6,20 @@ hexadecimal. NumPy and unzip pass over it; `read_arrays` verifies it before anyt
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import io
 import os
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Final
+from typing import BinaryIO, Final
 
 import numpy as np
 from numpy.typing import NDArray
+
+from evolution.arrays import LARGEST_CONTENT, UnreadableError, unpack_archive
 
 # Length of a SHA-256 in hexadecimal.
 DIGEST_LENGTH: Final = 64
@@ -49,19 +53,24 @@ def make_folder(path: Path) -> None:
 def write_atomically(path: Path, data: bytes) -> None:
     """Write a file so that a kill at any moment leaves either the old file or the new one.
 
+    Two processes that write the same file take turns; what a dead one left unfinished is written over.
+
     Raises:
         OSError: If it cannot be written; the old file, if any, is still there.
     """
     temporary = path.with_name(f".{path.name}.tmp")
     try:
-        with temporary.open("wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        temporary.replace(path)
+        with _opened_alone(temporary) as file:
+            try:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+                temporary.replace(path)
+            except OSError:
+                temporary.unlink(missing_ok=True)
+                raise
         _flush_directory(path.parent)
     except OSError as error:
-        temporary.unlink(missing_ok=True)
         raise OSError(
             f"{path} cannot be written: {error.strerror}; what was written before is whole: "
             "put this right, then repeat the command"
@@ -84,13 +93,16 @@ def read_arrays(path: Path) -> dict[str, NDArray]:
         DamagedFileError: If a single bit differs from what was written.
         OSError: If the file cannot be read.
     """
-    data = verified_bytes(path)
-    with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-        return {name: archive[name] for name in archive.files}
+    try:
+        return unpack_archive(verified_bytes(path))
+    except UnreadableError as error:
+        raise DamagedFileError(path, str(error)) from None
 
 
 def verified_bytes(path: Path) -> bytes:
     """The bytes of such a file, once its checksum is found to fit; raises as `read_arrays`."""
+    if path.stat().st_size > LARGEST_CONTENT:
+        raise DamagedFileError(path, f"it is larger than {LARGEST_CONTENT // 2**20} MB")
     data = path.read_bytes()
     content, digest = data[:-DIGEST_LENGTH], data[-DIGEST_LENGTH:]
     if hashlib.sha256(content).hexdigest().encode() != digest:
@@ -108,6 +120,27 @@ def pack_arrays(arrays: Mapping[str, NDArray]) -> bytes:
         archive.comment = b"-" * DIGEST_LENGTH  # keeps the place
     content = buffer.getvalue()[:-DIGEST_LENGTH]
     return content + hashlib.sha256(content).hexdigest().encode()
+
+
+@contextmanager
+def _opened_alone(path: Path) -> Iterator[BinaryIO]:
+    """An empty file that no other process writes while it is open; one that does is waited for."""
+    while True:
+        with path.open("ab") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            if _names(path, file):
+                file.truncate(0)
+                yield file
+                return
+            # Whoever was waited for has given the file its final name: begin another.
+
+
+def _names(path: Path, file: BinaryIO) -> bool:
+    """Whether a path leads to this open file."""
+    try:
+        return os.path.samestat(path.stat(), os.fstat(file.fileno()))
+    except FileNotFoundError:
+        return False
 
 
 def _flush_directory(directory: Path) -> None:

@@ -14,11 +14,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from evolution import postevaluation
 from evolution.folder import RunFolder
-from evolution.history import check_array
-from evolution.postevaluation import best_genotypes, late_spans, read_part
+from evolution.history import check_array, check_range
+from evolution.postevaluation import TRIALS, best_genotypes, late_spans
 from evolution.randomness import Purpose, generator
-from evolution.storage import DamagedFileError, make_folder
+from evolution.settings import N_BEST
+from evolution.storage import make_folder
 from evolution.subtasks import AgentClass, classify
 from evolution.transitions import action_transitions, object_transitions, transition_successes
 
@@ -68,8 +70,7 @@ def run_transition_test(
     spans = late_spans(folder)
     for done, span in enumerate(spans, 1):
         if not part_path(folder, span).exists():
-            part = _test_part(folder, span)
-            folder.write_arrays(part_path(folder, span), vars(part))
+            write_part(folder, span)
         if report:
             report(done, len(spans))
     return read_transition_test(folder)
@@ -82,7 +83,7 @@ def read_transition_test(folder: RunFolder) -> TransitionTest:
         ValueError: If it was not, or not to the end.
         DamagedFileError: If a part is damaged.
     """
-    return TransitionTest.join([_read(folder, span) for span in late_spans(folder)])
+    return TransitionTest.join([read_part(folder, span) for span in late_spans(folder)])
 
 
 def part_path(folder: RunFolder, span: range) -> Path:
@@ -90,9 +91,14 @@ def part_path(folder: RunFolder, span: range) -> Path:
     return folder.path / FOLDER / f"gen-{span.start:06d}-{span.stop - 1:06d}.npz"
 
 
-def _test_part(folder: RunFolder, span: range) -> TransitionTest:
-    """Test the classed agents of some generations; those of a generation meet the same trials."""
-    config, successes = folder.config, read_part(folder, span).successes
+def write_part(folder: RunFolder, span: range) -> None:
+    """Test the classed agents of some generations and keep the results."""
+    folder.write_arrays(part_path(folder, span), vars(_test_agents(folder, span)))
+
+
+def _test_agents(folder: RunFolder, span: range) -> TransitionTest:
+    """The classed agents of some generations; those of a generation meet the same trials."""
+    config, successes = folder.config, postevaluation.read_part(folder, span).successes
     actions, objects = action_transitions(config.condition), object_transitions(config.condition)
     tests = []
     for (generation, genotypes), scored in zip(best_genotypes(folder, span), successes, strict=True):
@@ -113,19 +119,23 @@ def _test_part(folder: RunFolder, span: range) -> TransitionTest:
     return TransitionTest.join(tests)
 
 
-def _read(folder: RunFolder, span: range) -> TransitionTest:
-    path, next_move = part_path(folder, span), f"wordarm postevaluate {folder.path}"
+def read_part(folder: RunFolder, span: range) -> TransitionTest:
+    """The results of some generations; raises as `read_transition_test`."""
+    path = part_path(folder, span)
     if not path.exists():
-        raise ValueError(f"{path} is missing; go on with: {next_move}")
+        raise ValueError(f"{path} is missing; go on with: wordarm postevaluate {folder.path}")
     condition = folder.config.condition
-    try:
+    with folder.repairable(path):
         arrays = folder.read_arrays(path)
-        n = len(arrays.get("generations", ()))
+        n = np.size(arrays.get("generations", ()))
         for name, dtype in (("generations", np.int32), ("ranks", np.int8), ("classes", np.int8)):
             check_array(path, arrays, name, (n,), np.dtype(dtype))
         n_action, n_object = len(action_transitions(condition)), len(object_transitions(condition))
         check_array(path, arrays, "action", (n, n_action), np.dtype(np.int16))
         check_array(path, arrays, "object", (n, n_object), np.dtype(np.int16))
-    except DamagedFileError as error:
-        raise DamagedFileError(path, error.found, f"remove it and repeat: {next_move}") from None
+        check_range(path, arrays, "generations", span.start, span.stop - 1)
+        check_range(path, arrays, "ranks", 0, N_BEST - 1)
+        check_range(path, arrays, "classes", 0, len(CLASSES) - 1)
+        for name in ("action", "object"):
+            check_range(path, arrays, name, 0, TRIALS)
     return TransitionTest(**arrays)  # type: ignore[arg-type] - checked above

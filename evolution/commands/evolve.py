@@ -99,5 +99,13 @@ def _announce(path: Path, generation: int) -> None:
 
 
 def default_folder(experiment: str, config: RunConfig) -> Path:
-    """Where a run is kept unless told otherwise."""
+    """Where a run is kept unless told otherwise.
+
+    Raises:
+        ValueError: If the experiment's name leads out of runs/.
+    """
+    if Path(experiment).is_absolute() or ".." in Path(experiment).parts:
+        raise ValueError(
+            f"experiment {experiment!r} would lie outside runs/; give a name, or any folder with --output"
+        )
     return Path("runs") / experiment / config.condition / f"seed-{config.seed:04d}"

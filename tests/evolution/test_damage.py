@@ -58,10 +58,11 @@ def test_repaired_files_have_the_bits_they_had(finished_run, run_copy, damage):
         damage(run_copy / name)
     notes = []
     assert repair(run_copy, notes.append) == 3
+    found = "it is missing" if damage is remove else "its checksum does not fit its content"
     assert notes == [
-        "computed generations 0 to 99 again",
-        "computed generations 100 to 199 again",
-        "wrote champions.npz again",
+        f"{FIRST}: {found}; computed generations 0 to 99 again",
+        f"{SECOND}: {found}; computed generations 100 to 199 again",
+        f"champions.npz: {found}; chose them again",
     ]
     assert contents(run_copy) == contents(finished_run)
     assert repair(run_copy) == 0

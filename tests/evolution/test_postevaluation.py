@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from arm2d import Condition
+from evolution import solving, transition_test
 from evolution.analysis import analyse
 from evolution.config import RunConfig
 from evolution.experiment import open_experiment
@@ -18,6 +19,7 @@ from evolution.postevaluation import (
     post_evaluate,
     read_post_evaluation,
 )
+from evolution.repair import repair
 from evolution.run import evolve
 from evolution.settings import Settings
 from evolution.shipping import notable_agents, ship
@@ -67,7 +69,7 @@ def test_damaged_part_is_named_with_the_command_that_recomputes_it(experiment, t
     copy = RunFolder.open(shutil.copytree(run.path, tmp_path / "copy"))
     path = part_path(copy, late_spans(copy)[0])
     path.write_bytes(path.read_bytes()[:-100])
-    with pytest.raises(DamagedFileError, match=r"is damaged .* remove it and repeat: wordarm postevaluate"):
+    with pytest.raises(DamagedFileError, match=r"is damaged .* put it right with: wordarm repair"):
         read_post_evaluation(copy)
 
 
@@ -124,3 +126,33 @@ def test_shipped_agents_are_found_again_with_their_world_and_scores(experiment, 
         assert source.readings == agent.run.config.readings
         rank = find_source(str(agent.run.path), generation=agent.generation, rank=agent.rank)
         np.testing.assert_array_equal(source.genotype, rank.genotype)
+
+
+@pytest.mark.slow
+def test_damaged_tests_are_repaired_with_the_bits_they_had(experiment, tmp_path):
+    run = open_experiment(experiment).all_runs[0]
+    copy = RunFolder.open(shutil.copytree(run.path, tmp_path / "copy"))
+    run_transition_test(copy)
+    solved_trials(copy)
+    span = late_spans(copy)[0]
+    paths = [part_path(copy, span), transition_test.part_path(copy, span), solving.file_path(copy)]
+    before = [path.read_bytes() for path in paths]
+    for path in paths:
+        path.write_bytes(path.read_bytes()[:-100])
+    notes = []
+    assert repair(copy.path, notes.append) == 3
+    assert [path.read_bytes() for path in paths] == before
+    assert [note.split(": ")[0] for note in notes] == [
+        f"postevaluation/{paths[0].name}", f"transitions/{paths[1].name}", "solved.npz",
+    ]  # fmt: skip
+
+
+def test_numbers_no_test_can_give_are_damage_even_with_a_fitting_checksum(experiment, tmp_path):
+    run = open_experiment(experiment).all_runs[0]
+    copy = RunFolder.open(shutil.copytree(run.path, tmp_path / "copy"))
+    span = late_spans(copy)[0]
+    arrays = copy.read_arrays(part_path(copy, span))
+    arrays["successes"][0, 0, 0] = 81
+    copy.write_arrays(part_path(copy, span), arrays)
+    with pytest.raises(DamagedFileError, match=r"its successes are not all in \[0, 80\]"):
+        read_post_evaluation(copy)

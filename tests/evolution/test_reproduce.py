@@ -1,7 +1,5 @@
 """The whole way from random genotypes to the report, scaled down; stopped, killed, refused."""
 
-import os
-import random
 import re
 import signal
 import subprocess
@@ -15,13 +13,13 @@ import pytest
 from arm2d import Condition, Readings
 from evolution.cli import main, parse
 from evolution.config import RunConfig
-from evolution.folder import LOCK
 from evolution.live_table import duration, plain_lines
 from evolution.lock import locked
 from evolution.plan import Plan, evolve_arguments, in_use
 from evolution.settings import Settings
 from evolution.stage_times import FILE, stage_times
 from evolution.standing import Pace, Standing, is_held, standing_of, time_left
+from evolution.torture.rounds import Torture, torture
 
 # Far from the paper, so that no stage takes long.
 FLAGS = ["--runs=1", "--population=10", "--elites=2", "--parents=5", "--generations=230"]
@@ -81,20 +79,14 @@ def test_stopped_it_ends_its_workers_and_goes_on_with_the_same_command(reproduce
 
 
 @pytest.mark.slow
-def test_workers_and_parent_killed_at_random_cost_nothing_but_time(reproduced, tmp_path):
-    folder, rng, kills = tmp_path / "small", random.Random(1), 0
-    for _ in range(3):
-        process = subprocess.Popen(command(folder), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        wait_for(lambda: any(map(is_held, folder.glob("*/seed-0001"))))
-        for _ in range(3):
-            time.sleep(rng.uniform(0.2, 1.2))
-            kills += sum(kill_holder(path) for path in folder.glob("*/seed-0001"))
-        process.kill()  # workers at work are left over, and waited for by the next
-        process.wait()
-    done = subprocess.run(command(folder), capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert kills
-    assert results_of(folder) == results_of(reproduced[0])
+def test_tortured_it_ends_with_the_bits_of_the_undisturbed_one(reproduced, tmp_path):
+    """The short form of `wordarm torture`: refused, killed, damaged, repaired, compared."""
+    small = Settings(population=10, elites=2, parents=5, generations=230)
+    tally = torture(Torture(tmp_path, kills=8, settings=small), print, reproduced[0])
+    assert tally.kills == 8
+    assert tally.damages.total() == 6
+    assert tally.refusals["files that may not grow, as on a full disk"] == tally.rounds == 1
+    assert list(tmp_path.iterdir()) == []
 
 
 def wait_for(condition, seconds=60):
@@ -102,18 +94,6 @@ def wait_for(condition, seconds=60):
     while not condition():
         assert time.monotonic() < until
         time.sleep(0.02)
-
-
-def kill_holder(path: Path) -> bool:
-    """Kill the process that works on a run, if there is one."""
-    try:
-        holder = int((path / LOCK).read_text() or 0)
-        if holder and is_held(path):
-            os.kill(holder, signal.SIGKILL)
-            return True
-    except (OSError, ValueError):
-        pass
-    return False
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from small_runs import SMALL
 
 from arm2d import Condition, Readings
-from evolution import genotype_files, sources
+from evolution import arrays, genotype_files, sources
 from evolution.folder import RunFolder
 from evolution.recorded import recorded_generation, recorded_history
 from evolution.replay import population_at
@@ -88,7 +88,7 @@ def packed(**arrays):
         (saved(np.full(84, "x")), "could not convert"),
         (
             saved(np.array([{}] * 84), allow_pickle=True),
-            "is not a genotype file.*Object arrays cannot be loaded",
+            "is not a genotype file.*it holds object, not numbers or text",
         ),
         (packed(other=GENOTYPES), "has no array genotypes; it has other"),
         (packed(genotypes=GENOTYPES, config=np.array("speed")), "carries a config that cannot be read"),
@@ -122,7 +122,8 @@ def test_a_file_has_no_generations(tmp_path):
 
 
 def test_a_file_that_would_fill_the_memory_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(genotype_files, "LARGEST_FILE", 10_000)
+    monkeypatch.setattr(genotype_files, "LARGEST_CONTENT", 10_000)
+    monkeypatch.setattr(arrays, "LARGEST_CONTENT", 10_000)
     np.savez_compressed(tmp_path / "bomb.npz", genotypes=np.zeros((1000, 84)))
     with pytest.raises(ValueError, match="its content is larger than"):
         find_source(str(tmp_path / "bomb.npz"))

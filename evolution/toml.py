@@ -1,0 +1,46 @@
+"""TOML that anyone may have written, read within bounds."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+# A config.toml has some 700 characters. Beyond these bounds a file can keep a parser busy for hours.
+LONGEST_TEXT: Final = 32_768
+DEEPEST: Final = 8
+
+
+def read_toml_file(path: Path) -> dict[str, Any]:
+    """The values of a file, of which no more is read than is allowed; raises as `read_toml`."""
+    with path.open(encoding="utf-8", newline="") as file:
+        return read_toml(file.read(LONGEST_TEXT + 1))
+
+
+def read_toml(text: str) -> dict[str, Any]:
+    """The values of a TOML text.
+
+    Raises:
+        ValueError: If it is none, is longer than `LONGEST_TEXT` or nested deeper than `DEEPEST`.
+    """
+    if len(text) > LONGEST_TEXT:
+        raise ValueError(f"it is longer than {LONGEST_TEXT} characters")
+    try:
+        values = tomllib.loads(text)
+    except RecursionError:
+        raise ValueError(f"its values are nested deeper than {DEEPEST} levels") from None
+    except ValueError as error:
+        raise ValueError(f"this is not TOML: {error}") from None
+    _check_depth(values)
+    return values
+
+
+def _check_depth(values: Mapping[str, Any]) -> None:
+    """Refuse values in values in values, which could not even be shown."""
+    level: list[Any] = [values]
+    for _ in range(DEEPEST):
+        groups = [each.values() if isinstance(each, Mapping) else each for each in level]
+        level = [value for group in groups for value in group if isinstance(value, (Mapping, list))]
+    if level:
+        raise ValueError(f"its values are nested deeper than {DEEPEST} levels")

@@ -1,0 +1,132 @@
+"""The torture as a whole: experiment after experiment, each compared with one that nobody disturbed."""
+
+from __future__ import annotations
+
+import random
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from arm2d import Condition
+from evolution.config import RunConfig
+from evolution.plan import Plan, evolve_arguments
+from evolution.settings import Settings
+from evolution.storage import make_folder
+from evolution.torture.disturbances import (
+    damage_and_repair,
+    refuse_where_files_cannot_grow,
+    refuse_where_nothing_can_be_written,
+)
+from evolution.torture.killing import Ordeal, TortureError, run_to_its_end
+from evolution.torture.stages import Schedule
+from evolution.torture.tally import Tally
+
+Tell = Callable[[str], None]
+
+UNDISTURBED: Final = "undisturbed"
+# Far from the paper, so that every stage comes soon: five parts, the last one short.
+SETTINGS: Final = Settings(population=10, elites=2, parents=5, generations=430)
+WORKERS: Final = 2
+# What depends on when things happened; everything else must have the bits of the undisturbed experiment.
+COMPARED: Final = (".npz", ".csv", ".toml")
+NOT_COMPARED: Final = "times.csv"
+
+
+@dataclass(frozen=True)
+class Torture:
+    """What is to be done to experiments in a folder.
+
+    Attributes:
+        folder: Where; made if it is not there.
+        kills: How many.
+        seed: When and whom follows from it, as far as the operating system lets it.
+        settings: Of the runs.
+    """
+
+    folder: Path
+    kills: int = 200
+    seed: int = 1
+    settings: Settings = SETTINGS
+
+    def plan(self, name: str) -> Plan:
+        """A run of each condition, in a folder of the torture's."""
+        configs = tuple(RunConfig(condition, settings=self.settings) for condition in Condition)
+        return Plan(self.folder / name, configs)
+
+
+def torture(what: Torture, tell: Tell, undisturbed: Path | None = None) -> Tally:
+    """Torture experiments until there were enough kills, and compare each with an undisturbed one.
+
+    Args:
+        what: Is to be done.
+        tell: Is told how it gets on.
+        undisturbed: The experiment to compare with, if it was made before.
+
+    Raises:
+        TortureError: If a promise was broken; the experiment is then left for inspection.
+        OSError: If the folder cannot be written, or not watched.
+    """
+    make_folder(what.folder)
+    tally = Tally()
+    if undisturbed is None:
+        undisturbed = _make_undisturbed(what, tell)
+    while tally.kills < what.kills:
+        _one_round(what, undisturbed, tally)
+        tell(f"{tally.kills} kills so far; experiment {tally.rounds} has the bits of the undisturbed one")
+    return tally
+
+
+def results_of(folder: Path) -> dict[str, bytes]:
+    """Everything in an experiment that follows from its configs, by name."""
+    files = (each for each in folder.rglob("*") if each.suffix in COMPARED and each.name != NOT_COMPARED)
+    return {str(each.relative_to(folder)): each.read_bytes() for each in sorted(files)}
+
+
+def _make_undisturbed(what: Torture, tell: Tell) -> Path:
+    """The experiment that nobody disturbs; what an earlier torture made of it is taken over."""
+    path = what.plan(UNDISTURBED).folder
+    tell(f"{path}: an experiment that nobody disturbs")
+    done = subprocess.run(  # noqa: S603 - our own program
+        [sys.executable, "-m", "evolution", *_command(what, path)], capture_output=True, text=True
+    )
+    if done.returncode:
+        raise TortureError(f"undisturbed, it ended with exit code {done.returncode}: {done.stdout[-500:]}")
+    return path
+
+
+def _one_round(what: Torture, undisturbed: Path, tally: Tally) -> None:
+    """One experiment: refused, killed, finished, damaged, repaired, compared."""
+    plan, rng = what.plan(f"tortured-{tally.rounds + 1}"), random.Random(f"{what.seed} {tally.rounds}")  # noqa: S311
+    shutil.rmtree(plan.folder, ignore_errors=True)
+    runs = tuple(plan.path(each) for each in plan.configs)
+    evolve = evolve_arguments(plan.configs[0], runs[0])
+    refuse_where_files_cannot_grow(evolve, runs[0], tally)
+    refuse_where_nothing_can_be_written(evolve, runs[0], tally)
+    command, schedule = _command(what, plan.folder), Schedule(what.seed, tally.rounds)
+    run_to_its_end(Ordeal(plan.folder, runs, command, schedule, tally, what.kills))
+    for each in runs:
+        damage_and_repair(each, rng, tally)
+    _compare(results_of(undisturbed), results_of(plan.folder), plan.folder)
+    tally.rounds += 1
+    shutil.rmtree(plan.folder)
+
+
+def _command(what: Torture, folder: Path) -> tuple[str, ...]:
+    """What reproduces the plan, after `python -m evolution`."""
+    values = what.settings.to_mapping().items()
+    settings = (f"--{name.replace('_', '-')}={value}" for name, value in values)
+    return ("reproduce", "--runs=1", f"--jobs={WORKERS}", *settings, f"--output={folder}")
+
+
+def _compare(expected: dict[str, bytes], found: dict[str, bytes], folder: Path) -> None:
+    """Refuse any difference."""
+    names = sorted(expected.keys() | found.keys())
+    if differing := [each for each in names if expected.get(each) != found.get(each)]:
+        raise TortureError(
+            f"{folder} differs from the undisturbed experiment in {len(differing)} files: "
+            f"{', '.join(differing[:5])}; compare them before you remove it"
+        )
