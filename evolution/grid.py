@@ -7,7 +7,6 @@ there are any, each of them is a grid of its own, on top of what the whole file 
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import product
@@ -20,6 +19,7 @@ from evolution.config import RunConfig
 from evolution.plan import Plan, World
 from evolution.seeds import read_seeds
 from evolution.settings import Settings
+from evolution.toml import read_toml
 from evolution.toml_keys import check_keys, one_of_kind, table_of
 from evolution.variants import check_name, value_name, variant_name
 
@@ -30,6 +30,7 @@ VARIANT_KEYS: Final = ("name", "settings", "readings")
 LARGEST_FILE: Final = 1_000_000  # [bytes]
 MOST_RUNS: Final = 100_000
 MOST_VARIANTS: Final = 10_000
+LARGEST_WHOLE: Final = 10**300
 
 
 @dataclass(frozen=True)
@@ -102,12 +103,8 @@ def read_experiment(path: Path) -> ExperimentSpec:
             the wrong kind, an empty grid, or the same thing twice.
     """
     try:
-        values = tomllib.loads(_text_of(path))
+        values = read_toml(_text_of(path), LARGEST_FILE)
         return experiment_from_mapping(values, Path("runs") / path.stem)
-    except tomllib.TOMLDecodeError as error:
-        raise ValueError(f"{path} is not TOML: {error}") from None
-    except RecursionError:
-        raise ValueError(f"{path} is nested too deeply to be read") from None
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
 
@@ -243,11 +240,14 @@ def _as_default(value: Any, default: Any) -> Any:
 
 
 def _is_whole(value: Any) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool)
+    # A number too large for a float stays as it is: it is refused by name, as all impossible values are.
+    return isinstance(value, int) and not isinstance(value, bool) and abs(value) < LARGEST_WHOLE
 
 
 def _refuse_twice(name: str, values: Sequence[Any]) -> None:
-    """Refuse a list in which something stands twice."""
+    """Refuse a list in which something stands twice, or which is too long to be looked through."""
+    if len(values) > MOST_VARIANTS:
+        raise ValueError(f"{name} has {len(values):,} values; at most {MOST_VARIANTS:,} can be told apart")
     for i, each in enumerate(values):
         if each in values[:i]:
             raise ValueError(f"{name} has {each} twice; leave one out")

@@ -6,7 +6,6 @@ a plan.
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
@@ -18,9 +17,12 @@ from evolution.config import FORMAT, RunConfig
 from evolution.plan import Plan
 from evolution.settings import Settings
 from evolution.storage import make_folder, write_atomically
+from evolution.toml import read_toml
 from evolution.variants import check_name
 
 FILE: Final = "plan.toml"
+# A hundred thousand seeds, one a line.
+LONGEST: Final = 4_000_000
 HEADING: Final = "# The runs this folder is meant to hold; written by wordarm, for wordarm status.\n"
 
 
@@ -69,7 +71,7 @@ def read_plan(folder: Path) -> Plan | None:
     except (OSError, ValueError):
         raise _unsound(path, "it cannot be read") from None
     try:
-        return _plan_of(folder, tomllib.loads(text))
+        return _plan_of(folder, read_toml(text, LONGEST))
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise _unsound(path, " ".join(str(error).split())) from None
 

@@ -7,9 +7,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
-# A config.toml has some 700 characters. Beyond these bounds a file can keep a parser busy for hours.
+# A config.toml has some 700 characters.
 LONGEST_TEXT: Final = 32_768
 DEEPEST: Final = 8
+# A dotted key keeps the parser busy for a time that grows with the square of its parts.
+MOST_POINTS: Final = 2_000
 
 
 def read_toml_file(path: Path) -> dict[str, Any]:
@@ -18,14 +20,17 @@ def read_toml_file(path: Path) -> dict[str, Any]:
         return read_toml(file.read(LONGEST_TEXT + 1))
 
 
-def read_toml(text: str) -> dict[str, Any]:
+def read_toml(text: str, longest: int = LONGEST_TEXT) -> dict[str, Any]:
     """The values of a TOML text.
 
     Raises:
-        ValueError: If it is none, is longer than `LONGEST_TEXT` or nested deeper than `DEEPEST`.
+        ValueError: If it is none, is longer than `longest`, is nested deeper than `DEEPEST`, or has a line of
+            more than `MOST_POINTS` points.
     """
-    if len(text) > LONGEST_TEXT:
-        raise ValueError(f"it is longer than {LONGEST_TEXT} characters")
+    if len(text) > longest:
+        raise ValueError(f"it is longer than {longest:,} characters")
+    if any(line.count(".") > MOST_POINTS for line in text.splitlines()):
+        raise ValueError(f"a line has more than {MOST_POINTS:,} points; break it up")
     try:
         values = tomllib.loads(text)
     except RecursionError:
