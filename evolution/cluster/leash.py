@@ -1,0 +1,37 @@
+"""A job's process on a worker's machine, which ends with the worker: `python -m evolution.cluster.leash`.
+
+The worker holds the other end of our standard input. However it dies, the kernel closes that end; the job is
+then told to stop, in good order and with a checkpoint, and gives the run free for whoever goes on with it.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+import time
+from typing import Final
+
+from evolution.cli import main as command_line
+
+PATIENCE: Final = 30.0  # [s] for stopping in good order
+
+
+def main() -> None:
+    """Be the command line, on a leash."""
+    threading.Thread(target=_end_with_the_worker, daemon=True).start()
+    sys.exit(command_line(sys.argv[1:]))
+
+
+def _end_with_the_worker() -> None:
+    """Wait until standard input is closed, then stop."""
+    while os.read(sys.stdin.fileno(), 1):
+        pass
+    os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(PATIENCE)
+    os._exit(128 + signal.SIGTERM)
+
+
+if __name__ == "__main__":
+    main()

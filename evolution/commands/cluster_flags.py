@@ -1,0 +1,133 @@
+"""The flags by which runs go to other machines, shared by the commands that have runs to do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from tyro.conf import arg
+
+if TYPE_CHECKING:
+    from evolution.cluster.connection import Connection
+    from evolution.cluster.slurm import SlurmOptions
+
+
+@dataclass(frozen=True)
+class SlurmFlags:
+    """What every SLURM job asks for; see docs/cluster.md for what is not given."""
+
+    file: Path | None = None
+    """TOML file whose table [slurm] has any of these; flags go before it."""
+
+    jobs: int | None = None
+    """SLURM jobs at most at a time; each is one worker. By default 1."""
+
+    cores: int | None = None
+    """Processors of each SLURM job, and runs at a time in it. By default 16."""
+
+    memory: str | None = None
+    """Memory of each SLURM job, such as 8GB. By default 300 MB for each core and 500 MB."""
+
+    walltime: str | None = None
+    """Longest time of each SLURM job, such as 04:00:00, the default."""
+
+    queue: str | None = None
+    """Partition."""
+
+    account: str | None = None
+    """Whom the time is charged to."""
+
+    interface: str | None = None
+    """Network interface by which the nodes reach this machine. By default lo, for this machine alone."""
+
+    directives: tuple[str, ...] | None = None
+    """More directives of sbatch, such as --constraint=rome."""
+
+    prologue: tuple[str, ...] | None = None
+    """Lines of the job script before the worker, such as 'module load python'."""
+
+    tls: bool | None = None
+    """Encrypt, and let nobody in but this command and its workers. By default yes."""
+
+    def options(self) -> SlurmOptions:
+        """The options asked for: defaults, then the file, then flags."""
+        from evolution.cluster.slurm import SlurmOptions, read_options
+
+        given = {each.name: getattr(self, each.name) for each in fields(self) if each.name != "file"}
+        options = read_options(self.file) if self.file else SlurmOptions()
+        return options.with_values({name: value for name, value in given.items() if value is not None})
+
+
+@dataclass(frozen=True)
+class ClusterFlags:
+    """Where runs are done: here, if neither --scheduler nor --slurm is given."""
+
+    scheduler: str | None = None
+    """Address of a Dask scheduler, such as tcp://10.0.0.1:8786; its workers do the runs."""
+
+    slurm: bool = False
+    """Let SLURM start workers, and do the runs there."""
+
+    dry_run: bool = False
+    """Show the script of the SLURM jobs, and do nothing."""
+
+    slurm_options: Annotated[SlurmFlags, arg(name="slurm")] = SlurmFlags()  # noqa: RUF009 - frozen
+
+    @property
+    def given(self) -> bool:
+        """Whether runs are done elsewhere."""
+        return self.slurm or self.scheduler is not None
+
+    def check(self) -> None:
+        """Refuse flags that do not go together.
+
+        Raises:
+            ValueError: If they do not, or packages for a cluster are missing.
+        """
+        if self.slurm and self.scheduler is not None:
+            raise ValueError("--scheduler and --slurm are two ways to get workers; give one of them")
+        if not self.slurm and (self.dry_run or self.slurm_options != SlurmFlags()):
+            raise ValueError("--dry-run and --slurm.* need --slurm; give it too, or leave them out")
+        if self.given:
+            _require_dask()
+
+    def job_script(self, folder: Path) -> str:
+        """What `--dry-run` shows."""
+        from evolution.cluster.slurm import job_script
+
+        return job_script(self.slurm_options.options(), folder)
+
+    @contextmanager
+    def opened(self, folder: Path) -> Iterator[Connection | None]:
+        """While open, a connection to the cluster asked for; None if runs are done here.
+
+        Raises:
+            ValueError, OSError: With one sentence, if there is no such cluster, or it cannot take part.
+        """
+        if self.slurm:
+            from evolution.cluster.slurm import slurm_cluster
+
+            with slurm_cluster(self.slurm_options.options(), folder) as connection:
+                yield connection
+        elif self.scheduler is not None:
+            from evolution.cluster.address import connected
+
+            with connected(self.scheduler, folder) as connection:
+                yield connection
+        else:
+            yield None
+
+
+def _require_dask() -> None:
+    try:
+        import dask_jobqueue
+        import distributed
+    except ImportError as error:
+        raise ValueError(
+            f"a cluster needs the package {error.name}; install what is missing with: pip install 'wordarm[cluster]'"
+        ) from None
+    assert distributed
+    assert dask_jobqueue
