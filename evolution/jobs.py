@@ -86,7 +86,7 @@ def run_jobs(
     with _none_left_behind(runner):
         while runner.workers or (runner.waiting and not runner.watcher.wants_stop()):
             _start_or_stop(runner, at_once)
-            runner.watcher.on_tick([worker.job for worker, _ in runner.workers])
+            runner.watcher.on_tick([worker.job for worker, _ in runner.workers if worker.begun])
             runner.start.wait([worker for worker, _ in runner.workers], POLL_INTERVAL)
             _take_note_of_ends(runner)
     return tuple(runner.failures)

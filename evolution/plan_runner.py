@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import replace
@@ -51,7 +52,11 @@ def run_plan(
 
 
 def run_plan_shown(
-    plan: Plan, at_once: int, stop: StopRequest | None = None, console: Console | None = None
+    plan: Plan,
+    at_once: int,
+    stop: StopRequest | None = None,
+    console: Console | None = None,
+    elsewhere: Start | None = None,
 ) -> tuple[Failure, ...]:
     """The same under the live table, plan and times being noted in the folder.
 
@@ -60,6 +65,7 @@ def run_plan_shown(
         at_once: Processes at a time; see `processes`.
         stop: An open one, if the caller has more to do when stopped; else Ctrl-C stops this alone.
         console: Where the table is shown.
+        elsewhere: How workers are started on other machines, which then get all jobs, to queue them.
 
     Returns:
         The jobs that were given up.
@@ -89,7 +95,7 @@ def run_plan_shown(
             on_note=lambda note: console.print(note, highlight=False),
             wants_stop=lambda: asked.requested,
         )
-        failures = run_plan(plan, at_once, watcher)
+        failures = run_plan(plan, sys.maxsize if elsewhere else at_once, watcher, elsewhere)
         watch.at_work = set()
     return failures
 

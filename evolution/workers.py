@@ -101,6 +101,11 @@ class Worker:
             )
 
     @property
+    def begun(self) -> bool:
+        """Whether it is at work already, rather than in a queue."""
+        return True
+
+    @property
     def told_to_stop(self) -> bool:
         """Whether `stop` was called."""
         return self._told_to_stop

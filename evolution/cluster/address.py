@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from distributed import Client
-from distributed.comm import parse_address
+from distributed.comm.addressing import parse_address
 from distributed.comm.registry import backends
 
 from evolution.cluster.connection import Connection

@@ -7,6 +7,7 @@ import time
 import uuid
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Final
@@ -23,8 +24,6 @@ ANSWER_TIME: Final = 10.0  # [s] for a scheduler to answer
 RETRY_INTERVAL: Final = 5.0  # [s] between two attempts to find it again
 PATIENCE: Final = 600.0  # [s] until a scheduler that went away is given up
 WORKERS_INTERVAL: Final = 10.0  # [s] between two looks at how many workers there are
-# So many workers in a row that cannot take part are one mistake of the whole cluster.
-MOST_SENT_AWAY: Final = 3
 
 
 class Connection:
@@ -54,16 +53,16 @@ class Connection:
         self._looked_at = 0.0
         self._had_workers = True
         self._stopped = False
-        self._sent_away = 0
+        self._sent_away: set[str] = set()
 
     def __enter__(self) -> Connection:
         logging.getLogger("distributed").setLevel(logging.CRITICAL)
         # Versions are compared by ourselves, in one sentence.
         warnings.filterwarnings("ignore", category=VersionMismatchWarning)
-        make_folder(self.order.folder)
-        self.order.mark.touch()
         try:
             self._open()
+            make_folder(self.order.folder)
+            self.order.mark.touch()
             self._examine()
         except BaseException:
             self._leave()
@@ -78,7 +77,7 @@ class Connection:
     def threads(self) -> int:
         """Jobs that can be at work at once, as things are; 0 without workers, or without scheduler."""
         try:
-            return sum(self._running_client().nthreads().values())
+            return sum(self._running_client().nthreads().values())  # pyright: ignore - not a coroutine
         except (OSError, TimeoutError):
             return 0
 
@@ -114,14 +113,18 @@ class Connection:
         """Close a worker that came later and cannot take part, lest it swallow task after task.
 
         Raises:
-            ValueError: If it is one of many.
+            ValueError: If there is no other.
         """
-        self._sent_away += 1
         sentence = f"worker {address} {why}"
-        if self._sent_away >= MOST_SENT_AWAY and not self.begun:
-            raise ValueError(sentence)
-        self.on_note(f"{sentence}; it was sent away")
-        self._running_client().retire_workers([address])
+        client = self._running_client()
+        is_new = address not in self._sent_away
+        self._sent_away.add(address)
+        there: Any = client.nthreads()
+        if self._sent_away.issuperset(there):
+            raise ValueError(f"{sentence}; there is no other worker")
+        if is_new and address in there:
+            self.on_note(f"{sentence}; it was sent away")
+            client.retire_workers([address])
 
     def _running_client(self) -> Client:
         if self._client is None or self._client.status != "running":
@@ -173,7 +176,7 @@ class Connection:
         """Refuse a scheduler or workers that cannot take part, before anything is begun."""
         client = self._running_client()
         try:
-            theirs = client.run_on_scheduler(fingerprint)
+            theirs: Any = client.run_on_scheduler(fingerprint)
         except Exception as error:
             raise ValueError(_cannot(f"the scheduler at {self.where}", error)) from None
         for name, wanted in self.order.fingerprint.items():
@@ -198,15 +201,13 @@ class Connection:
     def _leave(self) -> None:
         """Close, so that nothing stays behind."""
         if self._client:
-            try:
+            with suppress(OSError, TimeoutError):
                 self._client.close(timeout=ANSWER_TIME)
-            except (OSError, TimeoutError):
-                pass
         self.order.mark.unlink(missing_ok=True)
 
 
 def _cannot(who: str, error: Exception) -> str:
     return (
-        f"{who} cannot run this version of wordarm ({type(error).__name__}: {error}); install the same there: "
-        "pip install -c constraints.txt 'wordarm[cluster]'"
+        f"{who} cannot run this version of wordarm ({type(error).__name__}: {error}); "
+        "install the same there: pip install -c constraints.txt 'wordarm[cluster]'"
     )

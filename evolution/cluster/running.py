@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import sys
 import time
 import uuid
 from collections.abc import Iterable, Sequence
@@ -38,10 +39,8 @@ def run_jobs_on(
         OSError: If a log cannot be written, or the scheduler is gone for long.
         ValueError: If worker after worker cannot take part.
     """
-    watcher = watcher or Watcher()
-    connection.on_note = watcher.on_note
     # All at once: Dask then knows how much there is to do, and can ask for more workers.
-    return run_jobs(chains, max(len(chains), 1), watcher, RemoteStart(connection))
+    return run_jobs(chains, sys.maxsize, watcher, RemoteStart(connection))
 
 
 class RemoteStart:
@@ -49,6 +48,10 @@ class RemoteStart:
 
     def __init__(self, connection: Connection) -> None:
         self._connection = connection
+
+    def threads(self) -> int:
+        """Jobs that can be at work at once, as things are; at least 1."""
+        return max(self._connection.threads(), 1)
 
     def start(self, job: Job) -> RemoteWorker:
         """The task of a job."""
@@ -80,7 +83,7 @@ class RemoteWorker(Worker):
 
     @property
     def begun(self) -> bool:
-        """Whether its process was started."""
+        """As `Worker.begun`."""
         return self._key in self._connection.begun
 
     def look(self) -> Ended | None:

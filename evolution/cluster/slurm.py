@@ -14,7 +14,7 @@ from typing import Any, Final
 
 import psutil
 from dask.utils import parse_bytes
-from dask_jobqueue import SLURMCluster
+from dask_jobqueue.slurm import SLURMCluster, SLURMJob
 from distributed import Client
 from distributed.security import Security
 
@@ -28,6 +28,7 @@ LOOPBACK: Final = "lo"
 DEATH_TIMEOUT: Final = 300  # [s] a worker looks for a scheduler
 LARGEST_FILE: Final = 1_000_000  # [bytes]
 WALLTIME: Final = re.compile(r"(\d+-)?\d+(:\d+){0,2}")
+DIRECTIVE: Final = re.compile(r"-|[a-z][a-z-]+(=|$)")
 NAME: Final = re.compile(r"[\w.,@%+-]+")
 MOST_CORES: Final = 10_000
 MOST_JOBS: Final = 10_000
@@ -56,10 +57,10 @@ class SlurmOptions:
     """Whom the time is charged to."""
 
     interface: str = LOOPBACK
-    """Network interface by which the nodes reach this machine, such as ib0. By default none but this machine."""
+    """Network interface by which the nodes reach this machine, such as ib0. lo is for this machine alone."""
 
     directives: tuple[str, ...] = ()
-    """More directives of sbatch, such as --constraint=rome."""
+    """More directives of sbatch, such as constraint=rome."""
 
     prologue: tuple[str, ...] = ()
     """Lines of the job script before the worker, such as 'module load python'."""
@@ -75,8 +76,10 @@ class SlurmOptions:
         for name in ("queue", "account", "interface", "walltime", "memory"):
             if (value := getattr(self, name)) is not None and not isinstance(value, str):
                 raise ValueError(f"slurm {name} = {value!r} must be text")
+        if not isinstance(self.tls, bool):
+            raise ValueError(f"slurm tls = {self.tls!r} must be true or false")
         if not WALLTIME.fullmatch(self.walltime):
-            raise ValueError(f"slurm walltime = {self.walltime!r} must be like 04:00:00, or 2-00:00:00 for days")
+            raise ValueError(f"slurm walltime = {self.walltime!r} must be like 04:00:00, or 2-00:00:00")
         for name in ("queue", "account"):
             if (value := getattr(self, name)) is not None and not NAME.fullmatch(value):
                 raise ValueError(f"slurm {name} = {value!r} must be one word, as sbatch takes it")
@@ -86,11 +89,11 @@ class SlurmOptions:
 
     def _check_lines(self, name: str) -> None:
         lines = getattr(self, name)
-        if not isinstance(lines, tuple) or not all(isinstance(each, str) and "\n" not in each for each in lines):
+        if not isinstance(lines, tuple) or not all(isinstance(x, str) and x.isprintable() for x in lines):
             raise ValueError(f"slurm {name} = {lines!r} must be a list of single lines")
         for each in lines if name == "directives" else ():
-            if not each.startswith("-"):
-                raise ValueError(f"slurm directive {each!r} must be an option of sbatch, such as --nice=100")
+            if not DIRECTIVE.match(each):
+                raise ValueError(f"slurm directive {each!r} must be an option of sbatch, such as nice=100")
 
     def _check_memory(self) -> None:
         if self.memory is not None:
@@ -140,13 +143,11 @@ def read_options(path: Path) -> SlurmOptions:
         raise ValueError(f"{path}: {error}") from None
 
 
-def job_script(options: SlurmOptions, folder: Path) -> str:
+def job_script(options: SlurmOptions) -> str:
     """The script of every SLURM job; the scheduler's address and keys are known only when it runs."""
     # The job alone, without a cluster: nothing is listened to, nothing written.
-    job = SLURMCluster.job_cls(
-        "tls://<address>" if options.tls else "tcp://<address>", name="<name>", **_job_options(options, folder)
-    )
-    return job.job_script()
+    address = "tls://ADDRESS" if options.tls else "tcp://ADDRESS"
+    return SLURMJob(address, name="NAME", **_job_options(options)).job_script()
 
 
 @contextmanager
@@ -164,18 +165,19 @@ def slurm_cluster(options: SlurmOptions, folder: Path) -> Iterator[Connection]:
     if shutil.which("sbatch") is None:
         raise ValueError("there is no sbatch on this machine; --slurm works where jobs are submitted")
     if options.interface not in (known := psutil.net_if_addrs()):
-        raise ValueError(f"slurm interface {options.interface!r} does not exist; there are {', '.join(known)}")
+        raise ValueError(f"slurm interface {options.interface!r} is not here; there are {', '.join(known)}")
     logs = folder.resolve() / "logs" / "slurm"
     make_folder(logs)
+    cluster: Any
     with SLURMCluster(
-        **_job_options(options, folder),
+        **_job_options(options),
         log_directory=str(logs),
         shared_temp_directory=str(logs),
         security=_own_keys() if options.tls else None,
-        # No dashboard: it would listen on all interfaces.
-        scheduler_options={"dashboard": False, "dashboard_address": None},
+        # The scheduler's pages about itself: for this machine only, whatever the interface.
+        scheduler_options={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
     ) as cluster:
-        cluster.adapt(minimum_jobs=1, maximum_jobs=options.jobs, interval="10s", wait_count=6)
+        cluster.adapt(minimum_jobs=0, maximum_jobs=options.jobs, interval="10s", wait_count=6)
         with Connection(
             lambda seconds: Client(cluster, timeout=seconds, set_as_default=False),
             f"{cluster.scheduler_address} (SLURM)",
@@ -201,7 +203,7 @@ def _own_keys() -> Security:
         ) from None
 
 
-def _job_options(options: SlurmOptions, folder: Path) -> dict[str, Any]:
+def _job_options(options: SlurmOptions) -> dict[str, Any]:
     """What dask-jobqueue calls the options."""
     return {
         "cores": options.cores,
@@ -212,10 +214,10 @@ def _job_options(options: SlurmOptions, folder: Path) -> dict[str, Any]:
         "queue": options.queue,
         "account": options.account,
         "interface": options.interface,
-        "job_extra_directives": list(options.directives),
+        "job_extra_directives": [x if x.startswith("-") else f"--{x}" for x in options.directives],
         "job_script_prologue": list(options.prologue),
         "job_name": "wordarm",
         "python": sys.executable,
         "death_timeout": DEATH_TIMEOUT,
-        "worker_extra_args": ["--no-dashboard"],
+        "worker_extra_args": ["--no-dashboard", "--dashboard-address", "127.0.0.1:0"],
     }

@@ -1,7 +1,7 @@
 """What runs inside a Dask worker: a task that watches over one job's process.
 
-The process is one of its own, as on a single machine: the worker stays small and outlives a job that is killed
-or runs out of memory, signals reach the job, and jobs of one worker do not share an interpreter lock.
+The process is one of its own, as on a single machine: the worker stays small and outlives a job that is
+killed or runs out of memory, signals reach the job, and jobs of one worker do not share an interpreter lock.
 """
 
 from __future__ import annotations

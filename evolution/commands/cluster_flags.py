@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass, fields, replace
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from tyro.conf import arg
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from evolution.cluster.connection import Connection
+    from evolution.cluster.running import RemoteStart
     from evolution.cluster.slurm import SlurmOptions
+    from evolution.plan import Plan
 
 
 @dataclass(frozen=True)
@@ -44,7 +49,7 @@ class SlurmFlags:
     """Network interface by which the nodes reach this machine. By default lo, for this machine alone."""
 
     directives: tuple[str, ...] | None = None
-    """More directives of sbatch, such as --constraint=rome."""
+    """More directives of sbatch, such as constraint=rome."""
 
     prologue: tuple[str, ...] | None = None
     """Lines of the job script before the worker, such as 'module load python'."""
@@ -74,7 +79,7 @@ class ClusterFlags:
     dry_run: bool = False
     """Show the script of the SLURM jobs, and do nothing."""
 
-    slurm_options: Annotated[SlurmFlags, arg(name="slurm")] = SlurmFlags()  # noqa: RUF009 - frozen
+    slurm_options: Annotated[SlurmFlags, arg(name="slurm")] = SlurmFlags()
 
     @property
     def given(self) -> bool:
@@ -94,40 +99,51 @@ class ClusterFlags:
         if self.given:
             _require_dask()
 
-    def job_script(self, folder: Path) -> str:
-        """What `--dry-run` shows."""
+    def placed(self, plan: Plan) -> Plan:
+        """The same runs, in a folder whose name means the same on other machines."""
+        return replace(plan, folder=plan.folder.resolve()) if self.given else plan
+
+    def show_script(self) -> int:
+        """What `--dry-run` does; the exit code."""
         from evolution.cluster.slurm import job_script
 
-        return job_script(self.slurm_options.options(), folder)
+        print(job_script(self.slurm_options.options()), end="")
+        return 0
 
     @contextmanager
-    def opened(self, folder: Path) -> Iterator[Connection | None]:
-        """While open, a connection to the cluster asked for; None if runs are done here.
+    def opened(self, folder: Path, console: Console) -> Iterator[RemoteStart | None]:
+        """While open, the way to start jobs on the cluster asked for; None if runs are done here.
+
+        Args:
+            folder: Of the experiment.
+            console: Gets a line when scheduler or workers come and go.
 
         Raises:
             ValueError, OSError: With one sentence, if there is no such cluster, or it cannot take part.
         """
-        if self.slurm:
-            from evolution.cluster.slurm import slurm_cluster
+        if not self.given:
+            yield None
+            return
+        from evolution.cluster.running import RemoteStart
 
-            with slurm_cluster(self.slurm_options.options(), folder) as connection:
-                yield connection
-        elif self.scheduler is not None:
+        with self._connection(folder) as connection:
+            connection.on_note = lambda note: console.print(note, highlight=False, soft_wrap=True)
+            yield RemoteStart(connection)
+
+    def _connection(self, folder: Path) -> AbstractContextManager[Connection]:
+        if self.scheduler is not None:
             from evolution.cluster.address import connected
 
-            with connected(self.scheduler, folder) as connection:
-                yield connection
-        else:
-            yield None
+            return connected(self.scheduler, folder)
+        from evolution.cluster.slurm import slurm_cluster
+
+        return slurm_cluster(self.slurm_options.options(), folder)
 
 
 def _require_dask() -> None:
-    try:
-        import dask_jobqueue
-        import distributed
-    except ImportError as error:
-        raise ValueError(
-            f"a cluster needs the package {error.name}; install what is missing with: pip install 'wordarm[cluster]'"
-        ) from None
-    assert distributed
-    assert dask_jobqueue
+    """Refuse without the packages of the extra, before anything is begun."""
+    for name in ("distributed", "dask_jobqueue"):
+        if find_spec(name) is None:
+            raise ValueError(
+                f"a cluster needs the package {name}; install it with: pip install 'wordarm[cluster]'"
+            )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 from tyro.conf import arg
 
 from arm2d import Condition
+from evolution.commands.cluster_flags import ClusterFlags
 from evolution.commands.evolve import INTERRUPTED, UncheckedReadings
 from evolution.config import RunConfig
 from evolution.settings import Settings
@@ -40,6 +41,8 @@ class Reproduce:
     jobs: int | None = None
     """Processes at a time. By default as many as there are processors."""
 
+    cluster: Annotated[ClusterFlags, arg(name="")] = ClusterFlags()  # noqa: RUF009 - frozen
+
     settings: Annotated[Settings, arg(name="")] = Settings()  # noqa: RUF009 - frozen
 
     preset: str = "default"
@@ -64,25 +67,32 @@ class Reproduce:
 
     def run(self) -> int:
         """Reproduce; the exit code is 130 if it was stopped, 2 if a job was given up."""
+        from rich.console import Console
+
         from evolution.interrupt import StopRequest
         from evolution.lock import locked
         from evolution.plan_runner import processes, run_plan_shown
         from evolution.storage import make_folder
 
         at_once = processes(self.jobs)
-        plan, began = self.plan, time.monotonic()
+        self.cluster.check()
+        plan, began, console = self.cluster.placed(self.plan), time.monotonic(), Console()
         plan.check()
-        make_folder(plan.folder)
-        with locked(plan.folder):
-            with StopRequest() as stop:
-                failures = run_plan_shown(plan, at_once, stop)
-                results = None if stop.requested else _analyse(plan.folder)
-                if results and not stop.requested:
-                    failures += _look_at_agents(results, plan.folder, at_once, stop)
-                if results is None or stop.requested:
-                    print("stopped; go on with the same command")
-                    return INTERRUPTED
-            _report(results, plan.folder)
+        if self.cluster.dry_run:
+            return self.cluster.show_script()
+        with self.cluster.opened(plan.folder, console) as elsewhere:
+            make_folder(plan.folder)
+            with locked(plan.folder):
+                with StopRequest() as stop:
+                    at_once_there = elsewhere.threads() if elsewhere else at_once
+                    failures = run_plan_shown(plan, at_once_there, stop, console, elsewhere)
+                    results = None if stop.requested else _analyse(plan.folder)
+                    if results and not stop.requested:
+                        failures += _look_at_agents(results, plan.folder, at_once, stop)
+                    if results is None or stop.requested:
+                        print("stopped; go on with the same command")
+                        return INTERRUPTED
+                _report(results, plan.folder)
         _tell_times(plan.folder, time.monotonic() - began)
         for each in failures:
             print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")

@@ -1,0 +1,151 @@
+"""Jobs on a real Dask scheduler with workers as separate processes, killed and restarted."""
+
+import os
+import signal
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from dask_processes import DaskProcesses, parent_of, wait_for
+from small_runs import SMALL_FLAGS, contents
+
+from evolution.cli import main
+from evolution.cluster import connection
+from evolution.cluster.address import connected
+from evolution.cluster.agreement import Order, disagreement, fingerprint
+from evolution.cluster.running import run_jobs_on
+from evolution.folder import LOCK
+from evolution.jobs import Watcher
+from evolution.standing import is_held
+from evolution.workers import Job
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def dask(tmp_path_factory):
+    """A scheduler with a worker."""
+    processes = DaskProcesses(tmp_path_factory.mktemp("dask"))
+    try:
+        processes.start_scheduler()
+        processes.start_worker()
+        yield processes
+    finally:
+        processes.close()
+
+
+def small_job(folder, *more):
+    path = folder / "run"
+    return Job("small", "evolving", ("evolve", *SMALL_FLAGS, *more, f"--output={path}"), path, folder / "log")
+
+
+def holder_of(path: Path) -> int:
+    """The process that holds a run, or 0."""
+    try:
+        return int((path / LOCK).read_text() or 0) if is_held(path) else 0
+    except (OSError, ValueError):
+        return 0
+
+
+def test_a_run_whose_worker_is_killed_goes_on_elsewhere_with_the_same_bits(dask, finished_run, tmp_path):
+    path, killed = tmp_path / "run", []
+    dask.start_worker()
+
+    def kill_worker(jobs):
+        if not killed and (holder := holder_of(path)):
+            killed.append(parent_of(holder))
+            os.kill(killed[0], signal.SIGKILL)
+
+    with connected(dask.address, tmp_path) as cluster:
+        assert run_jobs_on(cluster, [[small_job(tmp_path)]], Watcher(on_tick=kill_worker)) == ()
+    assert killed[0] in [each.pid for each in dask.processes]
+    assert contents(path) == contents(finished_run)
+    log = (tmp_path / "log").read_text()
+    assert log.count("from generation") == 2  # it was begun twice
+    assert not list(tmp_path.glob(".cluster-*"))
+
+
+def test_a_scheduler_that_is_restarted_costs_only_what_was_not_finished(finished_run, tmp_path, monkeypatch):
+    monkeypatch.setattr(connection, "RETRY_INTERVAL", 0.2)
+    dask, path, notes, restarted = DaskProcesses(tmp_path), tmp_path / "run", [], []
+
+    def restart(jobs):
+        if not restarted and holder_of(path):
+            scheduler.kill()
+            scheduler.wait()
+            restarted.append(dask.start_scheduler(dask.port))
+            dask.start_worker()
+
+    try:
+        scheduler = dask.start_scheduler()
+        dask.start_worker()
+        with connected(dask.address, tmp_path) as cluster:
+            watcher = Watcher(on_tick=restart, on_note=notes.append)
+            cluster.on_note = notes.append
+            assert run_jobs_on(cluster, [[small_job(tmp_path)]], watcher) == ()
+    finally:
+        dask.close()
+    assert restarted
+    assert contents(path) == contents(finished_run)
+
+
+def test_asked_to_stop_the_jobs_are_left_in_good_order(dask, tmp_path):
+    path = tmp_path / "run"
+    chains = [[small_job(tmp_path, "--generations=100000")]] + [
+        [small_job(tmp_path / name, "--generations=100000")] for name in ("b", "c")
+    ]
+    with connected(dask.address, tmp_path) as cluster:
+        assert run_jobs_on(cluster, chains, Watcher(wants_stop=lambda: bool(holder_of(path)))) == ()
+        wait_for(lambda: not any(is_held(each[0].folder) for each in chains))
+    assert "go on with the same command" in (tmp_path / "log").read_text()
+    assert (path / "checkpoint.npz").exists()
+
+
+def test_stages_follow_one_another_and_bad_input_ends_a_chain_with_its_sentence(dask, tmp_path):
+    bad, never = small_job(tmp_path / "bad", "--elites=99"), small_job(tmp_path / "never")
+    good = small_job(tmp_path / "good", "--generations=5")
+    test = Job("small", "testing", ("postevaluate", str(good.folder)), good.folder, good.log)
+    begun = []
+    watcher = Watcher(on_tick=lambda jobs: begun.extend(each.stage for each in jobs))
+    with connected(dask.address, tmp_path) as cluster:
+        (failure,) = run_jobs_on(cluster, [[bad, never], [good, test]], watcher)
+    assert failure.job == bad
+    assert failure.sentence == "setting elites = 99 must lie in [0, 9]"
+    assert not never.folder.exists()
+    assert list((good.folder / "postevaluation").glob("*.npz"))
+    assert begun.index("evolving") < begun.index("testing")
+
+
+def test_a_cluster_with_other_versions_is_refused_before_anything_begins(dask, tmp_path):
+    cluster = connected(dask.address, tmp_path)
+    cluster.order = replace(cluster.order, fingerprint={**fingerprint(), "numba": "0.1"})
+    with pytest.raises(ValueError, match=r"has numba [\d.]+, where this command has 0.1; install the same"):
+        cluster.__enter__()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_machine_that_sees_another_folder_says_so(tmp_path):
+    order = Order("token", tmp_path, fingerprint())
+    assert f"does not see {tmp_path} as the command's machine does" in disagreement(order)
+    order.mark.touch()
+    assert disagreement(order) == ""
+
+
+@pytest.mark.parametrize(
+    ("address", "sentence"),
+    [
+        ("tcp://127.0.0.1:1", "no scheduler answers at tcp://127.0.0.1:1; start one with: dask scheduler"),
+        ("somewhere", "'somewhere' is not the address of a scheduler; give one such as tcp://10.0.0.1:8786"),
+        ("http://127.0.0.1:80", "'http://127.0.0.1:80' is not the address of a scheduler"),
+        ("", "'' is not the address of a scheduler"),
+    ],
+)
+def test_a_scheduler_that_is_not_there_gets_one_sentence_and_writes_nothing(
+    address, sentence, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setattr(connection, "ANSWER_TIME", 0.3)
+    assert main(["reproduce", f"--scheduler={address}", f"--output={tmp_path / 'new'}"]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith(f"wordarm: {sentence}")
+    assert error.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
