@@ -78,11 +78,15 @@ def choose_champions(candidates: Candidates, config: RunConfig) -> tuple[Candida
 
 def keep_champions(folder: RunFolder) -> None:
     """Choose the champions of a finished run and write champions.npz."""
-    config = folder.config
-    history = History.join(folder.read_part(span) for span in folder.spans[-2:])[-LAST_GENERATIONS:]
-    champions, successes = choose_champions(find_candidates(history), config)
+    history = History.join(folder.read_part(span) for span in folder.spans[-2:])
+    folder.write_arrays(folder.path / CHAMPIONS, champion_arrays(history, folder.config))
+
+
+def champion_arrays(history: History, config: RunConfig) -> dict[str, NDArray]:
+    """The arrays of champions.npz, from at least the last 100 generations of a run, or from all it has."""
+    champions, successes = choose_champions(find_candidates(history[-LAST_GENERATIONS:]), config)
     result = evaluate(champions.genotypes, config.condition, config.readings)
-    arrays = {
+    return {
         "genotypes": champions.genotypes,
         "generations": champions.generations,
         "ranks": champions.ranks,
@@ -93,4 +97,3 @@ def keep_champions(folder: RunFolder) -> None:
         "fitness": result.fitness,
         "config": np.array(config.to_toml()),
     }
-    folder.write_arrays(folder.path / CHAMPIONS, arrays)

@@ -19,6 +19,7 @@ from evolution.commands.behaviour import BehaviourCommand
 from evolution.commands.doctor import Doctor
 from evolution.commands.evaluate import Evaluate
 from evolution.commands.evolve import Evolve, UncheckedReadings
+from evolution.commands.experiment import ExperimentCommand
 from evolution.commands.lineage import LineageCommand
 from evolution.commands.measure import Measure
 from evolution.commands.plot import Plot
@@ -31,6 +32,7 @@ from evolution.commands.ship import Ship
 from evolution.commands.status import Status
 from evolution.commands.study import StudyCommand
 from evolution.commands.torture import TortureCommand
+from evolution.commands.verify import Verify
 
 DESCRIPTION: Final = "An arm that obeys two-word instructions: evolve its controllers, test them, show them."
 BAD_INPUT: Final = 2
@@ -41,6 +43,7 @@ LONGEST_SENTENCE: Final = 1000
 Command = (
     Evolve
     | Evaluate
+    | ExperimentCommand
     | BehaviourCommand
     | Doctor
     | LineageCommand
@@ -55,6 +58,7 @@ Command = (
     | Status
     | StudyCommand
     | TortureCommand
+    | Verify
     | Analyse
 )
 
@@ -101,6 +105,7 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
         | Annotated[BehaviourCommand, subcommand("behaviour")]
         | Annotated[Doctor, subcommand("doctor")]
         | Annotated[Evaluate, subcommand("evaluate")]
+        | Annotated[ExperimentCommand, subcommand("experiment")]
         | Annotated[LineageCommand, subcommand("lineage")]
         | Annotated[Measure, subcommand("measure")]
         | Annotated[Plot, subcommand("plot")]
@@ -113,6 +118,7 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
         | Annotated[Status, subcommand("status")]
         | Annotated[StudyCommand, subcommand("study")]
         | Annotated[TortureCommand, subcommand("torture")]
+        | Annotated[Verify, subcommand("verify")]
         | Annotated[Analyse, subcommand("analyse")]
     )
     return tyro.cli(commands, prog="wordarm", description=DESCRIPTION, args=arguments)  # pyright: ignore

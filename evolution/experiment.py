@@ -71,6 +71,11 @@ def open_experiment(path: Path) -> Experiment:
     folders = (
         [path] if (path / CONFIG).is_file() else sorted(each.parent for each in path.glob(f"*/*/{CONFIG}"))
     )
+    if not folders and (variants := sorted({each.parents[2].name for each in path.glob(f"*/*/*/{CONFIG}")})):
+        raise ValueError(
+            f"{path} holds {len(variants)} variants, which are looked at one by one; "
+            f"give the folder of one, such as {path / variants[0]}"
+        )
     if not folders:
         raise ValueError(
             f"{path} holds no runs; an experiment holds <condition>/seed-<seed>/{CONFIG}: "

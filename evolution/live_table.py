@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from statistics import median
 from typing import Final
 
 from rich.console import Console, Group, RenderableType
@@ -18,6 +19,8 @@ from evolution.standing import Pace, Standing, time_left
 # Seconds between two redrawings of the table, and between two groups of plain lines.
 LIVE_INTERVAL: Final = 1.0
 PLAIN_INTERVAL: Final = 30.0
+# Showing may take at most this share of the time.
+LARGEST_SHARE: Final = 0.02
 STYLES: Final = {
     "waiting": "dim", "evolving": "cyan", "testing": "magenta", "done": "green", "damaged": "bold red",
 }  # fmt: skip
@@ -28,19 +31,58 @@ def run_table(
 ) -> RenderableType:
     """The whole in one line, then all runs, one row each; damage is told in full.
 
-    Where there is room for `most_rows` only, runs at work stay longest, then waiting ones.
+    Where there is no room for all of them, the runs at work have a row each, and the others are summed up by
+    variant and condition.
     """
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    table.add_column("run", no_wrap=True)
-    table.add_column("state", no_wrap=True)
-    for heading in ("generation", "best", "tested", "left"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    for each in _most_telling(standings, most_rows):
+    damage = [Text(each.damage, style="red") for each in standings if each.damage]
+    line = Text(summary_line(standings, pace, at_once))
+    if most_rows is None or len(standings) <= most_rows:
+        return Group(line, _table_of_runs(standings, pace), *damage)
+    at_work = [each for each in standings if each.at_work][: max(most_rows // 2, 1)]
+    room = max(most_rows - len(at_work) - len(damage) - 3, 1)
+    return Group(line, _table_of_runs(at_work, pace), Text(), *_sums(standings, room), *damage)
+
+
+def _table_of_runs(standings: Sequence[Standing], pace: Pace) -> Table:
+    """One row for each run."""
+    table = _table("run", "state", "generation", "best", "tested", "left", left=2)
+    for each in standings:
         left = pace.left(each) if each.at_work else float("nan")
         state = Text(each.state, style=STYLES[each.state])
         table.add_row(each.name, state, _generation(each), _best(each), _tested(each), duration(left))
-    damage = [Text(each.damage, style="red") for each in standings if each.damage]
-    return Group(Text(summary_line(standings, pace, at_once)), table, *damage)
+    return table
+
+
+def _sums(standings: Sequence[Standing], most_rows: int) -> list[RenderableType]:
+    """One row for each variant and condition, those at work first, then those that wait."""
+    groups: dict[str, list[Standing]] = {}
+    for each in standings:
+        groups.setdefault(each.name.rpartition(", ")[0], []).append(each)
+    order = sorted(groups, key=lambda name: _rest(groups[name]))
+    table = _table("all runs of", "done", "at work", "waiting", "best", "median best", left=1)
+    for name in order[:most_rows]:
+        runs = groups[name]
+        done, at_work = sum(each.done for each in runs), sum(each.at_work for each in runs)
+        waiting = sum(each.state == "waiting" for each in runs)
+        best = [each.best for each in runs if not math.isnan(each.best)]
+        middle = f"{median(best):.3f}" if best else "-"
+        highest = f"{max(best):.3f}" if best else "-"
+        table.add_row(name, f"{done} of {len(runs)}", str(at_work), str(waiting), highest, middle)
+    hidden = len(order) - most_rows
+    return [table, Text(f"and {hidden} more", style="dim")] if hidden > 0 else [table]
+
+
+def _rest(runs: Sequence[Standing]) -> int:
+    """0 for a group at work, 1 for one that waits, 2 for one that is done."""
+    return 0 if any(each.at_work for each in runs) else 2 if all(each.done for each in runs) else 1
+
+
+def _table(*headings: str, left: int) -> Table:
+    """A table without lines, its first columns to the left."""
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for i, heading in enumerate(headings):
+        table.add_column(heading, no_wrap=i > 0, justify="left" if i < left else "right")
+    return table
 
 
 def summary_line(standings: Sequence[Standing], pace: Pace, at_once: int) -> str:
@@ -102,22 +144,18 @@ def shown_table(
 
 
 def _at_intervals(seconds: float, show: Callable[[], None]) -> Callable[[], None]:
-    """Call `show` at most every so many seconds."""
-    shown_at = float("-inf")
+    """Call `show` at most every so many seconds, and less often if it takes long."""
+    due_at = float("-inf")
 
     def maybe_show() -> None:
-        nonlocal shown_at
-        if time.monotonic() - shown_at >= seconds:
+        nonlocal due_at
+        began = time.monotonic()
+        if began >= due_at:
             show()
-            shown_at = time.monotonic()
+            ended = time.monotonic()
+            due_at = ended + max(seconds, (ended - began) / LARGEST_SHARE)
 
     return maybe_show
-
-
-def _most_telling(standings: Sequence[Standing], most: int | None) -> list[Standing]:
-    """As many as there is room for, in their order."""
-    order = sorted(range(len(standings)), key=lambda i: (not standings[i].at_work, standings[i].done))
-    return [standings[i] for i in sorted(order[:most])]
 
 
 def _generation(each: Standing) -> str:

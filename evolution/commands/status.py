@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Final
 
-from tyro.conf import Positional
+from tyro.conf import Positional, arg
+
+MOST_ROWS: Final = 60
+PIPE_WIDTH: Final = 200
 
 
 @dataclass(frozen=True)
@@ -13,18 +17,26 @@ class Status:
     """Show how far the runs of an experiment have come; nothing is written, whoever else is at work."""
 
     path: Positional[Path]
-    """Experiment folder, or the folder of one run."""
+    """Experiment folder, with variants or without, or the folder of one run."""
+
+    every_run: Annotated[bool, arg(name="all")] = False
+    """A row for each run, however many there are; else more than 60 are summed up."""
 
     def run(self) -> int:
         """Read and print once."""
         from rich.console import Console
 
-        from evolution.experiment import open_experiment
+        from evolution.folder import RunFolder
         from evolution.live_table import run_table
-        from evolution.standing import pace_of, standing_of
+        from evolution.standing import pace_of
+        from evolution.status import experiment_standings
 
-        runs = open_experiment(self.path).all_runs
-        standings = [standing_of(run.path, run.config) for run in runs]
-        at_work = sum(each.at_work for each in standings)
-        Console().print(run_table(standings, pace_of(runs), max(at_work, 1)))
+        standings = experiment_standings(self.path)
+        at_work = sum(each.at_work for each in standings.values())
+        started = [RunFolder(path, each.config) for path, each in standings.items() if each.generations]
+        most_rows = None if self.every_run else MOST_ROWS
+        table = run_table(list(standings.values()), pace_of(started), max(at_work, 1), most_rows)
+        console = Console()
+        # A pipe has no width: nothing is to be cut there.
+        console.print(table, width=None if console.is_terminal else PIPE_WIDTH)
         return 0

@@ -1,0 +1,118 @@
+"""`wordarm experiment`: all runs of an experiment file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Final
+
+from tyro.conf import Positional, arg
+
+from evolution.commands.evolve import INTERRUPTED
+
+if TYPE_CHECKING:
+    from evolution.grid import ExperimentSpec
+    from evolution.plan import Plan
+    from evolution.standing import Standing
+
+BAD_INPUT: Final = 2
+
+
+@dataclass(frozen=True)
+class ExperimentCommand:
+    """Evolve all runs of an experiment file (docs/experiments.md), as many at a time as there are processors.
+
+    Repeat the command to go on; what is done is not done again. Ctrl-C loses nothing.
+    """
+
+    file: Annotated[Positional[Path], arg(metavar="FILE")]
+    """A TOML file with conditions, seeds, readings and settings; lists are grids."""
+
+    output: Path | None = None
+    """Folder of the experiment; goes before the file's."""
+
+    jobs: int | None = None
+    """Processes at a time. By default what the file says, or as many as there are processors."""
+
+    seeds: str | None = None
+    """Goes before the file's, such as 7 or 1-8 or 1,2,5-8."""
+
+    generations: int | None = None
+    """Goes before the file's."""
+
+    dry_run: bool = False
+    """List the runs and how long they will take; start nothing."""
+
+    def run(self) -> int:
+        """Evolve; the exit code is 130 if it was stopped, 2 if a run was given up."""
+        from evolution.interrupt import StopRequest
+        from evolution.lock import locked
+        from evolution.plan_runner import processes, run_plan_shown
+        from evolution.storage import make_folder
+
+        spec = self.spec
+        plan, at_once = spec.plan(), processes(spec.jobs)
+        plan.check()
+        if self.dry_run:
+            return _list_runs(plan, spec, at_once)
+        make_folder(plan.folder)
+        with locked(plan.folder), StopRequest() as stop:
+            failures = run_plan_shown(plan, at_once, stop)
+        if stop.requested:
+            print("stopped; go on with the same command")
+            return INTERRUPTED
+        for each in failures:
+            print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
+        done = sum(each.done for each in plan.standings())
+        print(f"{done} of {len(plan.configs)} runs are done: {plan.folder}")
+        return BAD_INPUT if failures else 0
+
+    @property
+    def spec(self) -> ExperimentSpec:
+        """What file and flags ask for."""
+        from evolution.grid import check_size, read_experiment
+        from evolution.seeds import read_seeds
+
+        spec = read_experiment(self.file)
+        if self.generations is not None:
+            spec = spec.with_settings(generations=self.generations)
+        if self.seeds is not None:
+            spec = replace(spec, seeds=read_seeds(self.seeds.split(",")))
+        spec = replace(
+            spec, output=self.output or spec.output, jobs=spec.jobs if self.jobs is None else self.jobs
+        )
+        check_size(spec)
+        return spec
+
+
+def _list_runs(plan: Plan, spec: ExperimentSpec, at_once: int) -> int:
+    """Print every run with its time, and the whole."""
+    from evolution.estimate import expected_pace
+    from evolution.live_table import duration
+    from evolution.standing import time_left
+
+    standings = plan.standings()
+    pace, how = expected_pace(plan)
+    width = len(str(len(standings)))
+    for number, (config, each) in enumerate(zip(plan.configs, standings, strict=True), 1):
+        left = "damaged" if each.damage else "done" if each.done else f"about {duration(pace.left(each))}"
+        print(f"{number:{width}}  {plan.path(config)}  {config.settings.generations} generations, {left}")
+    print(_count(spec, standings))
+    print(f"about {duration(time_left(standings, pace, at_once))} in {at_once} processes, {how}")
+    return 0
+
+
+def _count(spec: ExperimentSpec, standings: Sequence[Standing]) -> str:
+    """How many runs there are, and why so many."""
+    factors = [
+        _plural(len(spec.worlds), "variant"),
+        _plural(len(spec.conditions), "condition"),
+        _plural(len(spec.seeds), "seed"),
+    ]
+    done = sum(each.done for each in standings)
+    return f"{_plural(len(standings), 'run')}: {' x '.join(factors)}" + (f"; {done} done" if done else "")
+
+
+def _plural(n: int, noun: str) -> str:
+    return f"{n} {noun}" + ("" if n == 1 else "s")
