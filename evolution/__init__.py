@@ -10,6 +10,10 @@
     checkpoint, lock     where a run can go on, and that one process does
     recorded, replay     what a run has recorded; every genotype again, without a trial
     run, repair          a run from first to last generation; its damaged files again
+    verify               a run computed again and compared
+    grid, variants, plan many runs: the file that names them, their names, their folders and jobs
+    plan_runner, jobs    a plan carried out, one process for each run; workers, fork_server: the processes
+    standing, live_table how far runs have come, and how that is shown
     evaluation, champion all nine instructions; the agents a run is remembered by
     sources, recording   a run, a file or a name -> genotype and its world -> a recorded trial
     figures, tables      evaluations and fitness, drawn and written

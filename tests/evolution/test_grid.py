@@ -1,5 +1,7 @@
 """Experiment files: what they mean, and what is said of those that mean nothing."""
 
+import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -191,6 +193,20 @@ def test_a_file_that_is_none_is_told_too(content, tmp_path, capsys):
         path.write_bytes(content)
     assert main(["experiment", str(path)]) == 2
     assert capsys.readouterr().err.startswith(f"wordarm: {path}: ")
+
+
+ROOT = Path(__file__).parents[2]
+BLOCKS = re.findall(r"```toml\n(.*?)```", (ROOT / "docs" / "experiments.md").read_text(), re.DOTALL)
+
+
+@pytest.mark.parametrize(("block", "names"), [*zip(BLOCKS, (4, 4), strict=True)], ids=range(len(BLOCKS)))
+def test_what_the_docs_show_can_be_run(block, names, write):
+    assert len(read_experiment(write(block)).plan().variants) == names
+
+
+def test_the_example_is_the_one_that_the_docs_show():
+    shown, example = tomllib.loads(BLOCKS[0]), (ROOT / "docs" / "examples" / "geometry.toml").read_text()
+    assert tomllib.loads(example) == shown
 
 
 def test_a_grid_too_large_to_be_listed_is_refused_before_it_is_made(write, capsys):
