@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from models.appearance import MeshSwap, Ornament
-from models.meshes import read_mesh, thin_to
+from models.meshes import read_mesh, thin
 from models.robots import Robot
 from models.urdf import find_urdf, read_urdf, share_folder
 
@@ -18,9 +18,8 @@ HAND_SITE = "robot/hand"  # the point that plays S2's end
 VISUAL_GROUP = 1
 SHELL_INERTIA = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # shown meshes need not be closed
 UNCOLOURED = [0.5, 0.5, 0.5, 1.0]  # the one colour that lets a material's own through
-# Triangles of one mesh, and the cells [m] tried one after the other to get there: chosen by eye.
-MAX_FACES = 4500
-CELLS = (0.002, 0.003, 0.004, 0.005)
+MAX_FACES = 1000  # triangles of one mesh: chosen by eye, at 720 lines nobody sees the others
+MAX_FACES_SWAPPED = 4000  # of a mesh that was chosen for its looks, such as a face
 
 SHAPES = {
     "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
@@ -60,11 +59,10 @@ def robot_spec(robot: Robot) -> mujoco.MjSpec:
     """Read a robot's URDF: acting joints only, and the hand's reference point as a site."""
     spec = mujoco.MjSpec.from_string(read_urdf(robot))
     spec.compiler.fusestatic = False  # a fused link would lose its name
-    for mesh in spec.meshes:
-        thin_mesh(mesh)
     spec.body(robot.hand_frame).add_site(name="hand", pos=list(robot.hand_offset), size=[0.005] * 3, group=5)
     for link in robot.left_out:
         spec.delete(spec.body(link))
+    thin_meshes(spec)
     acting = set(robot.joints)
     for joint in list(spec.joints):
         if joint.name not in acting:
@@ -72,13 +70,17 @@ def robot_spec(robot: Robot) -> mujoco.MjSpec:
     return spec
 
 
-def thin_mesh(mesh: mujoco.MjsMesh) -> None:
-    """Replace a mesh's file by what it holds, with at most `MAX_FACES` triangles where cells allow for it."""
-    cells = [cell / abs(mesh.scale[0]) for cell in CELLS]
-    vertices, faces = thin_to(*read_mesh(Path(mesh.file)), MAX_FACES, cells)
-    mesh.file = ""
-    mesh.uservert, mesh.userface = vertices.ravel(), faces.ravel()
-    mesh.inertia = SHELL_INERTIA
+def thin_meshes(spec: mujoco.MjSpec) -> None:
+    """Replace each mesh's file by what it holds, in few triangles; delete the meshes that nothing shows."""
+    shown = {geom.meshname for geom in spec.geoms}
+    for mesh in list(spec.meshes):
+        if mesh.name not in shown:
+            spec.delete(mesh)
+            continue
+        vertices, faces = thin(*read_mesh(Path(mesh.file)), MAX_FACES)
+        mesh.file = ""
+        mesh.uservert, mesh.userface = vertices.ravel(), faces.ravel()
+        mesh.inertia = SHELL_INERTIA
 
 
 def fix_joint(spec: mujoco.MjSpec, joint: mujoco.MjsJoint, angle: float) -> None:
@@ -135,14 +137,10 @@ def show(geom: mujoco.MjsGeom, material: str) -> None:
 def add_mesh_geom(scene: mujoco.MjSpec, swap: MeshSwap, share: Path) -> None:
     """Show a mesh file at a link."""
     name = f"{swap.link}_shown"
-    path = share / swap.file
-    if path.suffix == ".dae":
-        vertices, faces = read_mesh(path)
-        scene.add_mesh(
-            name=name, uservert=(vertices * swap.scale).ravel(), userface=faces.ravel(), inertia=SHELL_INERTIA
-        )
-    else:
-        scene.add_mesh(name=name, file=str(path), scale=list(swap.scale), inertia=SHELL_INERTIA)
+    vertices, faces = thin(*read_mesh(share / swap.file), MAX_FACES_SWAPPED)
+    scene.add_mesh(
+        name=name, uservert=(vertices * swap.scale).ravel(), userface=faces.ravel(), inertia=SHELL_INERTIA
+    )
     body = scene.body(ROBOT_PREFIX + swap.link)
     show(
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, pos=list(swap.position)), swap.material

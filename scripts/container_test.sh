@@ -12,7 +12,7 @@ sources=$(cd "$(dirname "$0")/.." && pwd)
 python=${PYTHON:-$sources/.venv/bin/python}
 
 say() { printf '== %s\n' "$*" >&2; }
-inside() { chroot "$root/debian" /usr/bin/env -i PATH=/usr/bin:/bin:/usr/sbin:/sbin HOME=/root "$@"; }
+inside() { chroot "$root/debian" /usr/bin/env -i DEBIAN_FRONTEND=noninteractive PATH=/usr/bin:/bin:/usr/sbin:/sbin HOME=/root "$@"; }
 doctor() { inside /venv/bin/wordarm doctor; }
 
 mkdir -p "$root/wheels"
@@ -37,12 +37,12 @@ if doctor >"$root/without.txt"; then
     exit 1
 fi
 cat "$root/without.txt"
-move=$(sed -n 's/^  EGL: apt-get install //p' "$root/without.txt")
-[ -n "$move" ] || { say "the doctor did not say what to install"; exit 1; }
+moves=$(sed -n 's/^  [^:]*: apt-get install //p' "$root/without.txt" | tr '\n' ' ')
+[ -n "$moves" ] || { say "the doctor did not say what to install"; exit 1; }
 
-say "apt-get install $move"
+say "apt-get install $moves"
 inside apt-get update -qq
 # shellcheck disable=SC2086 # several words
-inside apt-get install -y -qq --no-install-recommends $move >/dev/null
+inside apt-get install -y -qq --no-install-recommends $moves >/dev/null
 doctor
 say "content"

@@ -57,6 +57,11 @@ fi
 say "installing Python packages into $venv"
 "$venv/bin/python" -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
 
+# Pinocchio's wheel leaves OpenMP to the system, and the slimmest systems have none.
+if ! "$python" -c 'import ctypes; ctypes.CDLL("libgomp.so.1")' 2>/dev/null; then
+    { may_install && install libgomp1; } || say "no OpenMP library for the robot's kinematics; run: apt-get install libgomp1"
+fi
+
 # Nothing but videos of the robot needs these, so a machine that cannot get them goes on without.
 if ! has_gl; then
     libraries="libegl1 libgl1 libgl1-mesa-dri"

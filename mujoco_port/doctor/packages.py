@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
@@ -25,6 +26,14 @@ PROJECT: Final = "wordarm"
 # How a package is imported, where that is not its name; None: it holds data only.
 MODULES: Final = {"pin": "pinocchio", "icub-models": None, "example-robot-data": None}
 OVERLAY_ROOTS: Final = ("/opt/ros", "/opt/openrobots")
+ABSENT_LIBRARY: Final = re.compile(r"(lib\S+\.so[.\d]*): cannot open shared object file")
+# Which of Debian's packages brings a library that wheels expect of the system.
+DEBIAN: Final = {
+    "libgomp.so.1": "libgomp1",
+    "libGL.so.1": "libgl1",
+    "libEGL.so.1": "libegl1",
+    "libstdc++.so.6": "libstdc++6",
+}
 # First where the module would come from, then, if it can be imported, its version and its own libraries.
 IMPORT: Final = """
 import importlib, importlib.util, json, sys
@@ -89,10 +98,8 @@ class Package:
                 f"{version}, but {self.requirement.specifier} is needed", f"pip install '{asked}'"
             )
         if self.imported and not self.imported.works:
-            return self._missing(
-                f"{version} cannot be imported: {self.imported.reason}",
-                f"pip install --force-reinstall '{asked}'",
-            )
+            reason = self.imported.reason
+            return self._missing(f"{version} cannot be imported: {reason}", remedy(reason, asked))
         return Finding(TOPIC, name, State.WORKS, f"{version}, {self._place()}")
 
     def foreign(self) -> str:
@@ -133,6 +140,15 @@ def examine_package(asked: Requirement) -> Package:
     """Import one package in a process of its own."""
     module = module_of(asked.name)
     return Package(asked, None if module is None else attempt(IMPORT, module))
+
+
+def remedy(reason: str, asked: str) -> str:
+    """What to do about an installed package that cannot be imported."""
+    library = ABSENT_LIBRARY.search(reason)
+    if library is None:
+        return f"pip install --force-reinstall '{asked}'"
+    name = library.group(1)
+    return f"apt-get install {DEBIAN.get(name, f'the package that brings {name} (apt-file search {name})')}"
 
 
 def module_of(name: str) -> str | None:

@@ -11,6 +11,7 @@ import pytest
 
 from mujoco_port.doctor.findings import State
 from mujoco_port.doctor.machine import container_share
+from mujoco_port.doctor.packages import remedy
 
 DRAWING = """
 from mujoco_port.doctor.drawing import examine_drawing
@@ -174,6 +175,13 @@ def test_a_pinocchio_of_a_ros_workspace_is_found_and_named(tmp_path):
     assert f"pinocchio comes from {workspace}/pinocchio/__init__.py, not from the package pin" in line
     assert moves == ["run it without that folder: env -u PYTHONPATH wordarm ..."]
     assert f"{workspace} (ROS jazzy), whose packages come before ours" in line_of(lines, "PYTHONPATH")[0]
+
+
+def test_a_library_that_the_system_lacks_is_not_blamed_on_the_package():
+    """As a bare Debian says it of the wheel of Pinocchio."""
+    reason = "ImportError: libgomp.so.1: cannot open shared object file: No such file or directory"
+    assert remedy(reason, "pin>=4") == "apt-get install libgomp1"
+    assert remedy("ImportError: bad magic number", "pin>=4") == "pip install --force-reinstall 'pin>=4'"
 
 
 def test_ffmpeg_and_cache_that_cannot_be_used_are_named(tmp_path):
