@@ -40,6 +40,7 @@ bench: $(READY)  ## what is fast, measured on this machine
 	$(BIN)/python -m benchmarks.kernel
 	$(BIN)/python -m benchmarks.run
 	$(BIN)/python -m benchmarks.ik
+	$(BIN)/python -m benchmarks.video
 
 clean:  ## remove the environment and what the demo made
 	rm -rf $(VENV) $(DEMO) .pytest_cache .ruff_cache

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from models.appearance import MeshSwap, Ornament
 from models.meshes import read_mesh, thin
@@ -18,8 +19,10 @@ HAND_SITE = "robot/hand"  # the point that plays S2's end
 VISUAL_GROUP = 1
 SHELL_INERTIA = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # shown meshes need not be closed
 UNCOLOURED = [0.5, 0.5, 0.5, 1.0]  # the one colour that lets a material's own through
-MAX_FACES = 1000  # triangles of one mesh: chosen by eye, at 720 lines nobody sees the others
-MAX_FACES_SWAPPED = 4000  # of a mesh that was chosen for its looks, such as a face
+# Triangles of one mesh: chosen by eye, at 720 lines nobody sees the others.
+MAX_FACES = 800
+FACES_PER_AREA = 16_000  # [1/m^2], of the box around a mesh: small ones need fewer
+MAX_FACES_SWAPPED = 2800  # of a mesh that was chosen for its looks, such as a face
 
 SHAPES = {
     "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
@@ -77,10 +80,17 @@ def thin_meshes(spec: mujoco.MjSpec) -> None:
         if mesh.name not in shown:
             spec.delete(mesh)
             continue
-        vertices, faces = thin(*read_mesh(Path(mesh.file)), MAX_FACES)
+        vertices, faces = read_mesh(Path(mesh.file))
+        vertices, faces = thin(vertices, faces, faces_needed(vertices * mesh.scale))
         mesh.file = ""
         mesh.uservert, mesh.userface = vertices.ravel(), faces.ravel()
         mesh.inertia = SHELL_INERTIA
+
+
+def faces_needed(vertices: NDArray[np.float64]) -> int:
+    """Triangles that show a mesh of vertices [V, 3] in [m] well enough."""
+    x, y, z = np.ptp(vertices, axis=0)
+    return min(MAX_FACES, int(FACES_PER_AREA * 2 * (x * y + y * z + z * x)))
 
 
 def fix_joint(spec: mujoco.MjSpec, joint: mujoco.MjsJoint, angle: float) -> None:

@@ -40,9 +40,10 @@ def thin(
         return vertices, faces
     import fast_simplification
 
-    few, corners = fast_simplification.simplify(
-        vertices.astype(np.float32), faces, target_reduction=1.0 - n_faces / len(faces)
-    )
+    reduction = 1.0 - n_faces / len(faces)
+    few, corners = fast_simplification.simplify(vertices, faces.astype(np.int64), target_reduction=reduction)[
+        :2
+    ]
     return few.astype(np.float64), corners.astype(np.int32)
 
 

@@ -14,9 +14,10 @@ from arm2d import TrialRecord
 from arm2d.constants import DT
 from arm2d.video import Panel, write_mp4
 from models.robots import Robot
-from mujoco_port.caption import heading, verdict
-from mujoco_port.rollout import FRAMES_PER_STEP, moments, roll_out
+from mujoco_port.caption import footing, heading
+from mujoco_port.rollout import FRAMES_PER_STEP
 from mujoco_port.stage import Stage
+from mujoco_port.take import Take, kinematic_take
 
 HEIGHT_PX: Final = 720
 ROBOT_WIDTH_PX: Final = 800
@@ -25,6 +26,7 @@ PANEL_HEIGHT_PX: Final = 400
 CAPTION_HEIGHT_PX: Final = (HEIGHT_PX - PANEL_HEIGHT_PX) // 2
 VISIBLE: Final = 2e-4  # [rad] and [m]; a smaller change is a fifth of a pixel and is not drawn anew
 HOLD_S: Final = 1.0  # the last frame stays for so long
+PER_SECOND: Final = round(FRAMES_PER_STEP / DT)
 
 
 def write_video(record: TrialRecord, robot: Robot, path: Path) -> None:
@@ -34,9 +36,18 @@ def write_video(record: TrialRecord, robot: Robot, path: Path) -> None:
         OutOfReachError: If the robot cannot follow.
         OSError: If the file cannot be written.
     """
-    total = len(moments(record.steps, FRAMES_PER_STEP)) + round(HOLD_S / DT * FRAMES_PER_STEP)
-    shown = track(held(frames(record, robot)), f"{record.instruction} on {robot.name}", total=total)
-    write_mp4(shown, path, round(FRAMES_PER_STEP / DT))
+    write_take(kinematic_take(record, robot, FRAMES_PER_STEP), robot, path)
+
+
+def write_take(take: Take, robot: Robot, path: Path) -> None:
+    """Write what happened on the robot as an MP4, `PER_SECOND` moments of the take in a second.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
+    total = len(take.steps) + round(HOLD_S * PER_SECOND)
+    shown = track(held(frames(take, robot)), f"{take.record.instruction} on {robot.name}", total=total)
+    write_mp4(shown, path, PER_SECOND)
 
 
 def held(pictures: Iterable[NDArray[np.uint8]]) -> Iterator[NDArray[np.uint8]]:
@@ -44,37 +55,46 @@ def held(pictures: Iterable[NDArray[np.uint8]]) -> Iterator[NDArray[np.uint8]]:
     picture = np.empty(0, np.uint8)
     for picture in pictures:
         yield picture
-    for _ in range(round(HOLD_S / DT * FRAMES_PER_STEP)):
+    for _ in range(round(HOLD_S * PER_SECOND)):
         yield picture
 
 
 class Side:
-    """What stands beside the robot: the instruction, the 2D world, and at the end the verdict."""
+    """What stands beside the robot: the instruction, the 2D world, and at the end the verdicts."""
 
-    def __init__(self, record: TrialRecord, robot: Robot) -> None:
-        self._record = record
-        self._above = heading(record, robot, PANEL_WIDTH_PX, CAPTION_HEIGHT_PX)
-        self._running = verdict(record, False, PANEL_WIDTH_PX, CAPTION_HEIGHT_PX)
-        self._ended = verdict(record, True, PANEL_WIDTH_PX, CAPTION_HEIGHT_PX)
-        self._panel = Panel(record, PANEL_WIDTH_PX, PANEL_HEIGHT_PX, caption=False)
+    def __init__(self, take: Take, robot: Robot) -> None:
+        instruction, seconds = take.record.instruction, take.record.steps * DT
+        size = PANEL_WIDTH_PX, CAPTION_HEIGHT_PX
+        self._end = take.steps[-1]
+        self._above = heading(instruction, robot.title, *size)
+        self._running = footing((), seconds, *size)
+        self._ended = footing(take.verdicts, seconds, *size)
+        self._panel = Panel(take.record, PANEL_WIDTH_PX, PANEL_HEIGHT_PX, caption=False)
 
     def frame(self, step: float) -> NDArray[np.uint8]:
         """The picture after `step` steps, [720, 480, 3]."""
-        below = self._ended if step >= self._record.steps else self._running
+        below = self._ended if step >= self._end else self._running
         return np.concatenate([self._above, self._panel.frame(step), below])
 
 
-def frames(record: TrialRecord, robot: Robot) -> Iterator[NDArray[np.uint8]]:
-    """All moments of a trial, [720, 1280, 3] each: the robot on the left, the 2D world on the right."""
-    rollout, side = roll_out(record, robot), Side(record, robot)
+def frames(take: Take, robot: Robot) -> Iterator[NDArray[np.uint8]]:
+    """All moments of a take, [720, 1280, 3] each: the robot on the left, the 2D world on the right."""
+    side = Side(take, robot)
     with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX) as stage:
-        picture, drawn = np.empty(0, np.uint8), np.empty(0)
-        for step, angles, objects in zip(rollout.steps, rollout.angles, rollout.objects, strict=True):
-            pose = np.concatenate([angles, objects.ravel()])
-            if drawn.size == 0 or np.abs(pose - drawn).max() > VISIBLE:
-                stage.pose(angles, objects)
-                picture, drawn = stage.picture(), pose
+        for step, picture in zip(take.steps, robot_pictures(take, stage), strict=True):
             yield np.concatenate([picture, side.frame(step)], axis=1)
+
+
+def robot_pictures(take: Take, stage: Stage) -> Iterator[NDArray[np.uint8]]:
+    """The robot's view at each moment; a moment that looks like the one before is not drawn anew."""
+    picture, drawn = np.empty(0, np.uint8), np.empty(0)
+    for angles, objects, touched in zip(take.angles, take.objects, take.touched, strict=True):
+        shown = np.concatenate([angles, objects.ravel(), touched])
+        if drawn.size == 0 or np.abs(shown - drawn).max() > VISIBLE:
+            stage.pose(angles, objects)
+            stage.highlight(touched)
+            picture, drawn = stage.picture(), shown
+        yield picture
 
 
 def frame_at(record: TrialRecord, robot: Robot, step: int) -> NDArray[np.uint8]:
@@ -83,8 +103,9 @@ def frame_at(record: TrialRecord, robot: Robot, step: int) -> NDArray[np.uint8]:
     Raises:
         ValueError: If the record has no such step.
     """
-    panel = Side(record, robot).frame(step)
-    rollout = roll_out(record, robot, frames_per_step=1)
+    take = kinematic_take(record, robot, frames_per_step=1)
+    panel = Side(take, robot).frame(step)
     with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX) as stage:
-        stage.pose(rollout.angles[step], rollout.objects[step])
+        stage.pose(take.angles[step], take.objects[step])
+        stage.highlight(take.touched[step])
         return np.concatenate([stage.picture(), panel], axis=1)

@@ -1,9 +1,9 @@
 #!/bin/sh
 # Try `wordarm doctor` in a bare Debian, as in a container: scripts/container_test.sh FOLDER [SUITE]
 #
-# Needs root and debootstrap; takes some minutes and 3 GB below FOLDER. Packages come from where this
-# machine's pip and apt take them. Without OpenGL the command must end with 1 and say what to install; after
-# exactly that it must end with 0.
+# FOLDER should be empty or missing. Needs root and debootstrap; takes some minutes and 3 GB. Packages come from
+# where this machine's pip and apt take them. Without OpenGL the command must end with 1 and say what to
+# install; after exactly that it must end with 0.
 set -eu
 
 root=${1:?usage: scripts/container_test.sh FOLDER [SUITE]}
@@ -28,6 +28,7 @@ mkdir -p "$root/debian/wheels"
 cp "$root"/wheels/*.whl "$root/debian/wheels/"
 inside python3 -m venv /venv
 inside /venv/bin/python -m pip install --quiet --no-index --find-links /wheels wordarm
+inside /venv/bin/python -m pip install --quiet --no-index --find-links /wheels --no-deps --force-reinstall wordarm
 mountpoint -q "$root/debian/proc" || mount -t proc proc "$root/debian/proc"
 trap 'umount "$root/debian/proc"' EXIT
 

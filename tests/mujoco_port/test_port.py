@@ -12,6 +12,9 @@ from arm2d.drawing import OBJECT_COLOURS
 from models.robots import UnknownRobotError
 from mujoco_port.port import port_picture, port_trial
 from mujoco_port.rollout import FRAMES_PER_STEP, moments, roll_out
+from mujoco_port.stage import Stage
+from mujoco_port.take import kinematic_take
+from mujoco_port.video import CAPTION_HEIGHT_PX, HEIGHT_PX, Side
 from mujoco_port.workspace import on_table, tip_in_plane
 
 
@@ -67,6 +70,53 @@ def test_picture_shows_all_objects_and_nothing_is_black(shortest, tmp_path):
         saturated = robot_view.max(axis=-1) - robot_view.min(axis=-1) > 0.25
         assert ((direction > 0.97) & saturated).sum() > 300, colour
     assert (robot_view.max(axis=-1) < 0.04).mean() < 0.005
+
+
+@pytest.fixture(scope="module")
+def stage(robot):
+    with Stage(robot, 400, 360) as stage:
+        yield stage
+
+
+def test_picture_over_the_backdrop_is_the_one_that_is_drawn_at_once(stage, robot, shortest):
+    take = kinematic_take(shortest, robot, 1)
+    for k in (0, len(take.steps) // 2, -1):
+        stage.pose(take.angles[k], take.objects[k])
+        stage.highlight(take.touched[k])
+        difference = np.abs(stage.picture().astype(int) - stage.picture_at_once()).max(axis=-1)
+        assert (difference > 8).mean() < 0.002  # the robot's own shadow on the floor may be missing
+
+
+def test_touched_object_glows_and_the_others_do_not(stage, robot, shortest):
+    take = kinematic_take(shortest, robot, 1)
+    stage.pose(take.angles[0], take.objects[0])
+    stage.highlight(np.zeros(3, bool))
+    dark = stage.picture().astype(int)
+    stage.highlight(np.array([False, True, False]))
+    lit = stage.picture().astype(int)
+    rows, columns = np.nonzero(np.abs(lit - dark).max(axis=-1) > 20)
+    assert len(rows) > 200
+    assert (lit[rows, columns].sum(axis=-1) > dark[rows, columns].sum(axis=-1)).mean() > 0.95
+    # A ring and a cylinder: all in one place, far smaller than the picture.
+    assert np.ptp(rows) < 80
+    assert np.ptp(columns) < 60
+    stage.highlight(np.zeros(3, bool))
+    np.testing.assert_array_equal(stage.picture(), dark)
+
+
+def test_what_glows_is_what_is_touched_in_the_planar_world(robot, champion_records):
+    record = next(each for each in champion_records if each.contact.any())
+    take = kinematic_take(record, robot, 1)
+    np.testing.assert_array_equal(take.touched, record.contact != 0)
+
+
+def test_verdicts_stand_in_the_last_frame_only(robot, shortest):
+    take = kinematic_take(shortest, robot, 1)
+    side = Side(take, robot)
+    below = slice(HEIGHT_PX - CAPTION_HEIGHT_PX, HEIGHT_PX)
+    running, ended = side.frame(take.steps[-1] - 0.4)[below], side.frame(take.steps[-1])[below]
+    assert (running < 80).all(axis=-1).sum() == 0  # no ink
+    assert (ended < 80).all(axis=-1).sum() > 100
 
 
 @pytest.mark.parametrize(
