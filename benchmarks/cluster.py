@@ -113,10 +113,10 @@ def main() -> None:
         with connected(address, Path(name)) as cluster:
             while not cluster.threads():
                 time.sleep(0.1)
-            warm = Plan(Path(name) / "warm", (RunConfig(settings=Settings(generations=1)),))
+            warm = Plan(Path(name) / "warm", (RunConfig(settings=Settings(generations=1)),), False)
             run_plan(warm, 1)
             for i, which in enumerate(("local", "dask", "dask", "local")):
-                plan = Plan(Path(name) / f"{i}-{which}", configs)
+                plan = Plan(Path(name) / f"{i}-{which}", configs, False)
                 if which == "local":
                     with counted(local, []):
                         assert run_plan(plan, at_once) == ()

@@ -69,7 +69,7 @@ def main() -> None:
     """Cut a host off, and compare."""
     with tempfile.TemporaryDirectory() as name, hosts():
         folder, processes = Path(name), []
-        undisturbed, plan = Plan(folder / "undisturbed", CONFIGS), Plan(folder / "cut-off", CONFIGS)
+        undisturbed, plan = (Plan(folder / each, CONFIGS, False) for each in ("undisturbed", "cut-off"))
         assert run_plan(undisturbed, 2) == ()
         try:
             processes.append(start_on(HOSTS[0], *DASK, "scheduler", f"--host={NETWORK}.10", "--no-dashboard"))

@@ -76,9 +76,6 @@ class ClusterFlags:
     slurm: bool = False
     """Let SLURM start workers, and do the runs there."""
 
-    dry_run: bool = False
-    """Show the script of the SLURM jobs, and do nothing."""
-
     slurm_options: Annotated[SlurmFlags, arg(name="slurm")] = SlurmFlags()
 
     @property
@@ -94,8 +91,8 @@ class ClusterFlags:
         """
         if self.slurm and self.scheduler is not None:
             raise ValueError("--scheduler and --slurm are two ways to get workers; give one of them")
-        if not self.slurm and (self.dry_run or self.slurm_options != SlurmFlags()):
-            raise ValueError("--dry-run and --slurm.* need --slurm; give it too, or leave them out")
+        if not self.slurm and self.slurm_options != SlurmFlags():
+            raise ValueError("--slurm.* need --slurm; give it too, or leave them out")
         if self.given:
             _require_dask()
 
@@ -104,7 +101,13 @@ class ClusterFlags:
         return replace(plan, folder=plan.folder.resolve()) if self.given else plan
 
     def show_script(self) -> int:
-        """What `--dry-run` does; the exit code."""
+        """What `--dry-run` does; the exit code.
+
+        Raises:
+            ValueError: If no SLURM is asked for.
+        """
+        if not self.slurm:
+            raise ValueError("--dry-run shows what SLURM would be given; it needs --slurm")
         from evolution.cluster.slurm import job_script
 
         print(job_script(self.slurm_options.options()), end="")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from tyro.conf import Positional, arg
 
+from evolution.commands.cluster_flags import ClusterFlags
 from evolution.commands.evolve import INTERRUPTED
 
 if TYPE_CHECKING:
@@ -42,23 +43,31 @@ class ExperimentCommand:
     """Goes before the file's."""
 
     dry_run: bool = False
-    """List the runs and how long they will take; start nothing."""
+    """List the runs and how long they will take, with --slurm also the script of its jobs; start nothing."""
+
+    cluster: Annotated[ClusterFlags, arg(name="")] = ClusterFlags()  # noqa: RUF009 - frozen
 
     def run(self) -> int:
         """Evolve; the exit code is 130 if it was stopped, 2 if a run was given up."""
+        from rich.console import Console
+
         from evolution.interrupt import StopRequest
         from evolution.lock import locked
         from evolution.plan_runner import processes, run_plan_shown
         from evolution.storage import make_folder
 
         spec = self.spec
-        plan, at_once = spec.plan(), processes(spec.jobs)
+        self.cluster.check()
+        plan, at_once, console = self.cluster.placed(spec.plan()), processes(spec.jobs), Console()
         plan.check()
         if self.dry_run:
-            return _list_runs(plan, spec, at_once)
-        make_folder(plan.folder)
-        with locked(plan.folder), StopRequest() as stop:
-            failures = run_plan_shown(plan, at_once, stop)
+            _list_runs(plan, spec, at_once)
+            return self.cluster.show_script() if self.cluster.slurm else 0
+        with self.cluster.opened(plan.folder, console) as elsewhere:
+            make_folder(plan.folder)
+            with locked(plan.folder), StopRequest() as stop:
+                at_once_there = elsewhere.threads() if elsewhere else at_once
+                failures = run_plan_shown(plan, at_once_there, stop, console, elsewhere)
         if stop.requested:
             print("stopped; go on with the same command")
             return INTERRUPTED
@@ -86,7 +95,7 @@ class ExperimentCommand:
         return spec
 
 
-def _list_runs(plan: Plan, spec: ExperimentSpec, at_once: int) -> int:
+def _list_runs(plan: Plan, spec: ExperimentSpec, at_once: int) -> None:
     """Print every run with its time, and the whole."""
     from evolution.estimate import expected_pace
     from evolution.live_table import duration
@@ -100,7 +109,6 @@ def _list_runs(plan: Plan, spec: ExperimentSpec, at_once: int) -> int:
         print(f"{number:{width}}  {plan.path(config)}  {config.settings.generations} generations, {left}")
     print(_count(spec, standings))
     print(f"about {duration(time_left(standings, pace, at_once))} in {at_once} processes, {how}")
-    return 0
 
 
 def _count(spec: ExperimentSpec, standings: Sequence[Standing]) -> str:

@@ -41,6 +41,9 @@ class Reproduce:
     jobs: int | None = None
     """Processes at a time. By default as many as there are processors."""
 
+    dry_run: bool = False
+    """With --slurm, show the script of its jobs; start nothing."""
+
     cluster: Annotated[ClusterFlags, arg(name="")] = ClusterFlags()  # noqa: RUF009 - frozen
 
     settings: Annotated[Settings, arg(name="")] = Settings()  # noqa: RUF009 - frozen
@@ -78,7 +81,7 @@ class Reproduce:
         self.cluster.check()
         plan, began, console = self.cluster.placed(self.plan), time.monotonic(), Console()
         plan.check()
-        if self.cluster.dry_run:
+        if self.dry_run:
             return self.cluster.show_script()
         with self.cluster.opened(plan.folder, console) as elsewhere:
             make_folder(plan.folder)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from dask_processes import DaskProcesses, parent_of, wait_for
-from small_runs import SMALL_FLAGS, contents
+from small_runs import SMALL, SMALL_FLAGS, contents
 
 from evolution.cli import main
 from evolution.cluster import connection
@@ -114,6 +114,17 @@ def test_stages_follow_one_another_and_bad_input_ends_a_chain_with_its_sentence(
     assert not never.folder.exists()
     assert list((good.folder / "postevaluation").glob("*.npz"))
     assert begun.index("evolving") < begun.index("testing")
+
+
+def test_an_experiment_runs_on_a_cluster_with_the_bits_it_has_here(
+    dask, finished_run, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    settings = "\n".join(f"{name} = {value}" for name, value in SMALL.settings.to_mapping().items())
+    (tmp_path / "small.toml").write_text(f"seeds = {SMALL.seed}\n[settings]\n{settings}\n")
+    assert main(["experiment", "small.toml", f"--scheduler={dask.address}"]) == 0
+    assert "1 of 1 runs are done" in capsys.readouterr().out
+    assert contents(tmp_path / "runs" / "small" / "with-indicate" / "seed-0011") == contents(finished_run)
 
 
 def test_a_cluster_with_other_versions_is_refused_before_anything_begins(dask, tmp_path):

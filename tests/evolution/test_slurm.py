@@ -27,6 +27,16 @@ def test_a_dry_run_shows_the_script_and_does_nothing(tmp_path, monkeypatch, caps
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_dry_run_of_an_experiment_shows_its_runs_and_the_script(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "two.toml").write_text("seeds = '1-2'\n[settings]\ngenerations = 10\n")
+    assert main(["experiment", "two.toml", "--slurm", "--dry-run"]) == 0
+    output = capsys.readouterr().out
+    assert f"{tmp_path}/runs/two/with-indicate/seed-0002  10 generations" in output
+    assert "#SBATCH -J wordarm" in output
+    assert [each.name for each in tmp_path.iterdir()] == ["two.toml"]
+
+
 def test_the_script_is_one_that_a_shell_understands():
     script = job_script(SlurmOptions(prologue=("module() { :; }", "module load python")))
     subprocess.run(["bash", "-n"], input=script, text=True, check=True)
@@ -82,8 +92,8 @@ def test_a_file_without_the_table_is_refused(text, tmp_path):
     ("flags", "sentence"),
     [
         (["--slurm", "--scheduler=tcp://a:1"], "--scheduler and --slurm are two ways to get workers"),
-        (["--dry-run"], "--dry-run and --slurm.* need --slurm"),
-        (["--slurm.cores=3"], "--dry-run and --slurm.* need --slurm"),
+        (["--dry-run"], "--dry-run shows what SLURM would be given; it needs --slurm"),
+        (["--slurm.cores=3"], "--slurm.* need --slurm; give it too, or leave them out"),
         (["--slurm", "--slurm.interface=ib77"], "slurm interface 'ib77' is not here; there are lo"),
     ],
 )
