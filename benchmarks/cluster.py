@@ -40,35 +40,23 @@ class Cost:
     cpu: float = 0.0
 
 
+def start_dask(*arguments: str) -> subprocess.Popen:
+    """Start one of Dask's processes, silently."""
+    command = [sys.executable, "-m", "dask", *arguments]
+    return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
 @contextmanager
 def dask_processes(folder: Path, threads: int) -> Iterator[tuple[str, list[subprocess.Popen]]]:
     """A scheduler and one worker."""
     file = folder / "scheduler.json"
-    dask = (sys.executable, "-m", "dask")
-    options = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    started = [
-        subprocess.Popen(
-            [
-                *dask,
-                "scheduler",
-                "--host=127.0.0.1",
-                "--port=0",
-                "--no-dashboard",
-                f"--scheduler-file={file}",
-            ],
-            **options,
-        )
-    ]
+    where = ("--host=127.0.0.1", "--port=0", f"--scheduler-file={file}")
+    started = [start_dask("scheduler", *where, "--no-dashboard")]
     try:
         while not file.exists() or not file.read_text().endswith("}"):
             time.sleep(0.1)
-        started.append(
-            subprocess.Popen(
-                [*dask, "worker", f"--scheduler-file={file}", f"--nthreads={threads}", "--nworkers=1",
-                 "--no-dashboard", f"--local-directory={folder}"],
-                **options,
-            )
-        )  # fmt: skip
+        how = (f"--nthreads={threads}", "--nworkers=1", "--no-dashboard", f"--local-directory={folder}")
+        started.append(start_dask("worker", f"--scheduler-file={file}", *how))
         yield json.loads(file.read_text())["address"], started
     finally:
         for each in started:
