@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from dataclasses import replace
 
 import pytest
@@ -102,27 +103,21 @@ def test_an_experiment_can_grow_and_status_knows_runs_that_were_not_started(done
 
 @pytest.mark.slow
 def test_killed_workers_and_servers_cost_nothing_but_time(alone, file, tmp_path):
-    """The parent is killed too; the command is given until it ends by itself."""
-    folder, kills = tmp_path / "out", 0
+    """First the process that forks, then two workers, then the command itself; then it may end in peace."""
+    folder, killed = tmp_path / "out", []
     command = [sys.executable, "-m", "evolution", "experiment", str(file), f"--output={folder}", "--jobs=2"]
-    for round_ in range(4):
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        while process.poll() is None and round_ < 3:
-            if victims := descendants(process.pid):
-                # In turn: the fork server, a worker, the parent.
-                chosen = [process.pid] if round_ == 2 else victims[:1] if round_ == 0 else victims[-1:]
-                kills += sum(kill(each) for each in chosen)
-                break
-            time.sleep(0.01)
-        if round_ == 2:
-            process.wait()
-        else:
-            assert process.wait() == 0
-        if round_ < 2:
-            # Another go at the last run, so that each round has something to do.
-            for part in (folder / RUNS[-1]).rglob("*.npz"):
-                part.unlink()
-    assert kills >= 2
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while process.poll() is None and len(killed) < 3:
+        there = descendants(process.pid)
+        if there and (not killed or len(there) > 1):
+            killed += [there[-1] if killed else there[0]]
+            kill(killed[-1])
+        time.sleep(0.02)
+    process.kill()
+    process.wait()
+    assert killed
+    ended = subprocess.run(command, capture_output=True, text=True)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
     assert results_of(folder) == alone
 
 
@@ -142,11 +137,8 @@ def descendants(pid):
 
 
 def kill(pid):
-    try:
+    with suppress(ProcessLookupError):
         os.kill(pid, signal.SIGKILL)
-    except ProcessLookupError:
-        return False
-    return True
 
 
 @pytest.mark.slow
