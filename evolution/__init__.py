@@ -17,6 +17,19 @@
     evaluation, champion all nine instructions; the agents a run is remembered by
     sources, recording   a run, a file or a name -> genotype and its world -> a recorded trial
     figures, tables      evaluations and fitness, drawn and written
+    style, drawings      what all figures share; PNG, and SVG that stays small
+    postevaluation, transition_test, solving      the tests of a run's late agents, kept beside it
+    transitions, subtasks                         what these tests ask; categories and classes of agents
+    experiment, tested_runs                       runs that belong together; those that can be analysed
+    analysis, results, comparisons, statistics    files to numbers; the numbers; the conditions compared
+    generalisers, notable                         compositional agents over time; single ones to look at
+    result_files, result_rows, figures_...        tables and figures
+    lineage, lineage_scores, innovations          an agent's ancestors, and when each skill came
+    behaviour, events, variance, lesions          what an agent does, and which word it needs when
+    class_observation, class_results, class_files the same for classes of agents, the run as the unit
+    key_numbers, published                        an experiment in a few numbers; the paper's
+    report, report_...                            the page
+    plan, jobs, workers, reproduce, stage_times   the whole paper in processes of their own
     meta, progress       with what a run was computed; how it gets on
     cli, commands/       the command line
 

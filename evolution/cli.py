@@ -16,6 +16,8 @@ from tyro.conf import subcommand
 from arm2d import Readings
 from evolution.commands.analyse import Analyse
 from evolution.commands.behaviour import BehaviourCommand
+from evolution.commands.classes import Classes
+from evolution.commands.compare import Compare
 from evolution.commands.doctor import Doctor
 from evolution.commands.evaluate import Evaluate
 from evolution.commands.evolve import Evolve, UncheckedReadings
@@ -45,6 +47,8 @@ Command = (
     | Evaluate
     | ExperimentCommand
     | BehaviourCommand
+    | Classes
+    | Compare
     | Doctor
     | LineageCommand
     | Measure
@@ -103,6 +107,8 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
     commands = (
         Annotated[Evolve, subcommand("evolve", default=Evolve(readings=readings))]
         | Annotated[BehaviourCommand, subcommand("behaviour")]
+        | Annotated[Classes, subcommand("classes")]
+        | Annotated[Compare, subcommand("compare")]
         | Annotated[Doctor, subcommand("doctor")]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[ExperimentCommand, subcommand("experiment")]

@@ -5,7 +5,7 @@ runs/<experiment>/<condition>/seed-0007/
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,15 +17,34 @@ from evolution.storage import DamagedFileError
 
 @dataclass(frozen=True)
 class Experiment:
-    """The runs of an experiment, by condition and in the order of their seeds."""
+    """The runs of an experiment, by condition and in the order of their seeds.
+
+    Attributes:
+        path: Its folder.
+        runs: By condition.
+        unreadable: A sentence for every run whose config.toml cannot be understood.
+    """
 
     path: Path
     runs: Mapping[Condition, tuple[RunFolder, ...]]
+    unreadable: tuple[str, ...] = ()
 
     @property
     def all_runs(self) -> tuple[RunFolder, ...]:
         """All runs, condition by condition."""
         return tuple(run for runs in self.runs.values() for run in runs)
+
+    @property
+    def absent(self) -> tuple[str, ...]:
+        """A sentence for every condition that lacks seeds of the other."""
+        seeds = {c: {run.config.seed for run in runs} for c, runs in self.runs.items()}
+        every = set().union(*seeds.values())
+        return tuple(
+            f"{condition} has no run of seed {', '.join(map(str, sorted(every - own)))}, which the other "
+            "condition has; start it with: wordarm evolve"
+            for condition, own in seeds.items()
+            if every - own
+        )
 
     @property
     def readings(self) -> Readings:
@@ -66,7 +85,7 @@ def open_experiment(path: Path) -> Experiment:
     """The experiment in a folder; a single run's folder is an experiment of one.
 
     Raises:
-        ValueError: If there is no run in it, or its runs took place in different worlds.
+        ValueError: If there is no readable run in it, or its runs took place in different worlds.
     """
     folders = (
         [path] if (path / CONFIG).is_file() else sorted(each.parent for each in path.glob(f"*/*/{CONFIG}"))
@@ -81,14 +100,31 @@ def open_experiment(path: Path) -> Experiment:
             f"{path} holds no runs; an experiment holds <condition>/seed-<seed>/{CONFIG}: "
             "give such a folder, or start one with: wordarm reproduce"
         )
-    runs = sorted((RunFolder.open(each) for each in folders), key=lambda run: run.config.seed)
+    runs, unreadable = _opened(folders)
     worlds = {run.config.readings for run in runs}
     if len(worlds) > 1:
         raise ValueError(
             f"the runs in {path} took place under {len(worlds)} different readings; analyse them apart"
         )
     by_condition = {c: tuple(run for run in runs if run.config.condition is c) for c in Condition}
-    return Experiment(path, {c: runs for c, runs in by_condition.items() if runs})
+    return Experiment(path, {c: runs for c, runs in by_condition.items() if runs}, tuple(unreadable))
+
+
+def _opened(folders: Iterable[Path]) -> tuple[list[RunFolder], list[str]]:
+    """The runs that can be opened, by seed, and what is wrong with the others.
+
+    Raises:
+        ValueError: If none can, with what is wrong with the first.
+    """
+    runs, unreadable = [], []
+    for folder in folders:
+        try:
+            runs.append(RunFolder.open(folder))
+        except ValueError as error:
+            unreadable.append(str(error))
+    if not runs:
+        raise ValueError(unreadable[0])
+    return sorted(runs, key=lambda run: run.config.seed), unreadable
 
 
 def state_of(run: RunFolder) -> RunState:

@@ -47,7 +47,7 @@ def trajectories_figure(behaviour: Behaviour, readings: Readings, origin: str) -
                 above.set_ylabel("alpha [°]")
                 below.set_ylabel("beta [°]")
             below.set_xlabel("time [s]" if place > 5 else "")
-        figure.legend(handles=_trajectory_handles(), loc="lower center", frameon=False, ncols=5, fontsize=8.5)
+        figure.legend(handles=trajectory_handles(), loc="lower center", frameon=False, ncols=5, fontsize=8.5)
     return figure
 
 
@@ -95,7 +95,7 @@ def _draw_lines(
                     )
 
 
-def _trajectory_handles() -> list[Line2D]:
+def trajectory_handles() -> list[Line2D]:
     """What lines and markers mean."""
     return [
         Line2D([], [], color=INK, lw=1.2, label="from the right"),

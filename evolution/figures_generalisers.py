@@ -26,6 +26,11 @@ from evolution.subtasks import AgentClass, classify
 
 FULL_COLOUR: Final = "#B0296F"
 PARTIAL_COLOUR: Final = "#E69F00"
+CLASS_COLOURS: Final = {
+    AgentClass.FULL: FULL_COLOUR,
+    AgentClass.PARTIAL: PARTIAL_COLOUR,
+    AgentClass.NONE: "#7A7A7A",
+}
 # Heights of rows: of runs with a fully compositional agent, with partial ones only, with neither [in].
 TALL, MIDDLE, FLAT = 0.7, 0.42, 0.19
 # Generations that share one cell of the drawing of partial agents.

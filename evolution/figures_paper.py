@@ -18,14 +18,13 @@ from matplotlib.patches import Patch
 from arm2d.drawing import INK
 from evolution import published
 from evolution.figures import running_median
-from evolution.figures_generalisers import generalisers_figure
+from evolution.figures_generalisers import CLASS_COLOURS, generalisers_figure
 from evolution.report_text import TITLES
 from evolution.results import ConditionResults, Results
 from evolution.style import FAINT, STYLE
-from evolution.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
+from evolution.subtasks import N_CATEGORIES, SUBTASKS
 from evolution.transitions import Transition, action_transitions, object_transitions
 
-CLASS_COLOURS: Final = {AgentClass.FULL: "#CC79A7", AgentClass.PARTIAL: "#E69F00", AgentClass.NONE: "#7A7A7A"}
 # From pale sand (never) to deep teal (nearly always), lightness falling evenly.
 CATEGORY_MAP: Final = LinearSegmentedColormap.from_list(
     "categories", ["#EFECE5", "#CFE0DC", "#7FB8B5", "#2F7F86", "#0D3F4A"]

@@ -21,8 +21,7 @@ from numpy.typing import NDArray
 
 from evolution.algorithm import rank as ranking
 from evolution.folder import RunFolder
-from evolution.history import History
-from evolution.postevaluation import late_spans
+from evolution.postevaluation import late_history
 from evolution.settings import N_BEST
 from evolution.statistics import sign_flip_test
 
@@ -81,7 +80,7 @@ def generalisers_of(
     first = stays = verdicts = np.empty(0, np.int64)
     longest = 0
     if len(rows):
-        history = _late_history(run)
+        history = late_history(run)
         first, stays, verdicts = _stays(history.best_genotypes, members)
         indices = np.stack([ranking(fitness)[:N_BEST] for fitness in history.fitness])
         longest = longest_line(indices, history.parents, members)
@@ -152,13 +151,3 @@ def _stays(
     first, stays = present.argmax(axis=1), present.sum(axis=1)
     order = np.lexsort([found, first])
     return first[order], stays[order], verdicts[order]
-
-
-def _late_history(run: RunFolder) -> History:
-    """The late generations of a run."""
-    first = late_spans(run)[0].start
-    parts = []
-    for span in run.spans:
-        if span.stop > first:
-            parts.append(run.read_part(span)[max(first - span.start, 0) :])
-    return History.join(parts)

@@ -92,6 +92,17 @@ def read_post_evaluation(folder: RunFolder) -> PostEvaluation:
     )
 
 
+def late_history(folder: RunFolder) -> History:
+    """What is recorded of the generations that are post-evaluated.
+
+    Raises:
+        DamagedFileError: If a part of the run is damaged.
+    """
+    first = late_spans(folder)[0].start
+    wanted = [span for span in folder.spans if span.stop > first]
+    return History.join(folder.read_part(span)[max(first - span.start, 0) :] for span in wanted)
+
+
 def progress(folder: RunFolder) -> tuple[int, int]:
     """How many parts of how many are there."""
     spans = late_spans(folder)

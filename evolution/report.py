@@ -20,6 +20,8 @@ from matplotlib.colors import to_hex
 from arm2d import NON_EXPERIENCED, Readings
 from arm2d.drawing import OBJECT_COLOURS
 from evolution import meta
+from evolution.class_files import behaviours_kept, class_figures
+from evolution.class_observation import Sampling
 from evolution.figures import SUCCESS_MAP
 from evolution.figures_paper import all_figures
 from evolution.folder import META
@@ -97,6 +99,7 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "classes": [str(each) for each in AgentClass],
         "figures": {name: figure_uri(figure) for name, figure in figures.items()},
         "agents": agents,
+        **_classes(shown),
         "recordings": _embedded([each["recordings"] for each in agents]),
         "trials": TRIALS,
         "films": list(_films(experiment.path, home)),
@@ -125,6 +128,18 @@ def _agent(each: ConditionResults, agent: Agent, experiment: Path) -> dict[str, 
         "objects": [(word.name.capitalize(), colour) for word, colour in OBJECT_COLOURS.items()],
         "recordings": recordings_of(agent),
         "figures": list(_figures_beside(agent)),
+    }
+
+
+def _classes(shown: Results) -> dict[str, Any]:
+    """What was observed of the classes of agents, and how to observe what was not."""
+    behaviours, missing = behaviours_kept(shown, Sampling())
+    figures = class_figures(behaviours, Sampling())
+    some = any(each.members[kind].any() for each in shown.conditions.values() for kind in AgentClass)
+    return {
+        "class_figures": [figure_uri(figure) for figure in figures.values()],
+        "class_missing": missing,
+        "has_classes": some,
     }
 
 

@@ -1,12 +1,14 @@
-"""What a reproduction of the paper does once its runs are evolved and tested: a look at the best agents."""
+"""What a reproduction of the paper does once its runs are evolved and tested: a look at agents."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+from evolution.class_observation import Sampling, observation_path
 from evolution.notable import best_agent
 from evolution.plan import LOGS
 from evolution.results import Results
+from evolution.subtasks import AgentClass
 from evolution.workers import Job
 
 
@@ -25,4 +27,18 @@ def agent_chains(results: Results, folder: Path) -> list[list[Job]]:
         ):
             if not done.exists():
                 chains.append([Job(name, stage, (command, *which), path, log)])
+    return chains
+
+
+def class_chains(results: Results, folder: Path) -> list[list[Job]]:
+    """What is still to be observed of the classes of agents, run by run."""
+    chains = []
+    for condition, each in results.conditions.items():
+        for index, run in enumerate(each.runs):
+            some = any(each.members[kind][index] for kind in AgentClass)
+            if some and not observation_path(run, Sampling()).exists():
+                log = folder / LOGS / f"{condition}-seed-{run.config.seed:04d}.log"
+                command = ("classes", str(run.path), "--no-figures")
+                job = Job(f"{condition}, seed {run.config.seed}", "observing classes", command, run.path, log)
+                chains.append([job])
     return chains

@@ -126,5 +126,6 @@ class Results:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """One sentence for every run that was left out."""
-        return tuple(sentence for each in self.conditions.values() for sentence in each.missing)
+        """One sentence for everything that is missing or was left out."""
+        left_out = [sentence for each in self.conditions.values() for sentence in each.missing]
+        return (*self.experiment.unreadable, *self.experiment.absent, *left_out)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from evolution.config import RunConfig
 from evolution.experiment import state_of
 from evolution.folder import RunFolder
 from evolution.history import History
@@ -48,26 +49,26 @@ def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[s
     """
     tested, missing = [], []
     for run in runs:
-        if reason := _unfinished(run):
-            missing.append(f"{_name(run)}: left out, {reason}")
+        if reason := unfinished(run):
+            missing.append(f"{name_of(run)}: left out, {reason}")
             continue
         try:
             tested.append(_read(run))
         except ValueError as error:
-            missing.append(f"{_name(run)}: left out, {error}")
+            missing.append(f"{name_of(run)}: left out, {error}")
     lengths = {each.run.config.settings.generations for each in tested}
     if len(lengths) > 1:
         raise ValueError(f"the runs have {sorted(lengths)} generations; analyse runs of one length together")
     return tested, missing
 
 
-def _unfinished(run: RunFolder) -> str:
-    """What a run still lacks, or nothing."""
+def unfinished(run: RunFolder) -> str:
+    """What a run lacks to be analysed and how to go on, or nothing."""
     state = state_of(run)
     if state.damage:
         return state.damage
     if not state.finished:
-        return f"{state.generations} generations so far; go on with: wordarm evolve --output {run.path}"
+        return f"{state.generations} generations so far; go on with: {_evolve_command(run)}"
     if state.evaluated < state.to_evaluate:
         return f"not post-evaluated; go on with: wordarm postevaluate {run.path}"
     return ""
@@ -92,5 +93,15 @@ def _read(run: RunFolder) -> TestedRun:
     )
 
 
-def _name(run: RunFolder) -> str:
+def _evolve_command(run: RunFolder) -> str:
+    """What goes on with a run."""
+    condition, seed = run.config.condition, run.config.seed
+    command = f"wordarm evolve --condition={condition} --seed={seed} --output={run.path}"
+    if run.config.differences(RunConfig(condition, seed)):
+        command += ", with the settings and readings of its config.toml as flags"
+    return command
+
+
+def name_of(run: RunFolder) -> str:
+    """Condition and seed."""
     return f"{run.config.condition}, seed {run.config.seed}"

@@ -29,8 +29,9 @@ class PostEvaluate:
         from evolution.transition_test import run_transition_test
 
         columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+        experiment, damaged = open_experiment(self.path), []
         with Progress(*columns) as bars:
-            for run in open_experiment(self.path).all_runs:
+            for run in experiment.all_runs:
                 state = state_of(run)
                 name = f"{run.config.condition}, seed {run.config.seed}"
                 if state.damage or not state.finished:
@@ -38,8 +39,13 @@ class PostEvaluate:
                     continue
                 first = bars.add_task(f"{name}, instructions", total=state.to_evaluate)
                 second = bars.add_task(f"{name}, transitions", total=state.to_evaluate)
-                with locked(run.path):
-                    post_evaluate(run, lambda done, _, bar=first: bars.update(bar, completed=done))
-                    run_transition_test(run, lambda done, _, bar=second: bars.update(bar, completed=done))
-                    solved_trials(run)
+                try:
+                    with locked(run.path):
+                        post_evaluate(run, lambda done, _, bar=first: bars.update(bar, completed=done))
+                        run_transition_test(run, lambda done, _, bar=second: bars.update(bar, completed=done))
+                        solved_trials(run)
+                except ValueError as error:
+                    damaged.append(str(error))
+        if damaged or experiment.unreadable:
+            raise ValueError("; ".join([*experiment.unreadable, *damaged]))
         return 0

@@ -118,13 +118,13 @@ def _analyse(folder: Path) -> Results:
 
 
 def _look_at_agents(results: Results, folder: Path, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
-    """Trace and observe the best agent of each condition; the jobs given up."""
+    """Trace and observe the best agent of each condition, and observe classes; the jobs given up."""
     from evolution.jobs import Watcher, run_jobs
-    from evolution.reproduce import agent_chains
+    from evolution.reproduce import agent_chains, class_chains
     from evolution.stage_times import note_time
 
-    if chains := agent_chains(results, folder):
-        print("tracing the best agents' ancestors, and what they do", flush=True)
+    if chains := agent_chains(results, folder) + class_chains(results, folder):
+        print("tracing the best agents' ancestors, and what they and their classes do", flush=True)
     watcher = Watcher(
         on_end=lambda ended: note_time(folder, ended),
         on_note=lambda note: print(note, flush=True),
@@ -135,10 +135,14 @@ def _look_at_agents(results: Results, folder: Path, at_once: int, stop: StopRequ
 
 def _report(results: Results, folder: Path) -> None:
     """The page."""
+    from evolution.class_files import behaviours_kept, write_classes
+    from evolution.class_observation import Sampling
     from evolution.report import write_report
     from evolution.stage_times import timed
 
     with timed(folder, "reporting"):
+        behaviours, _ = behaviours_kept(results, Sampling())
+        write_classes(behaviours, Sampling(), folder / "results")
         path = write_report(results, folder / "report.html")
     print(path, flush=True)
 

@@ -8,6 +8,7 @@ import pytest
 from arm2d import Condition
 from evolution import solving, transition_test
 from evolution.analysis import analyse
+from evolution.cli import main, parse
 from evolution.config import RunConfig
 from evolution.experiment import open_experiment
 from evolution.figures_paper import all_figures
@@ -102,6 +103,52 @@ def test_analysis_names_what_is_missing_and_goes_on(experiment, tmp_path):
     assert len(results.conditions[Condition.WITH_INDICATE].runs) == 1
     (sentence,) = results.missing
     assert sentence.startswith("with-indicate, seed 2: left out, not post-evaluated")
+
+
+def test_a_damaged_part_costs_its_run_only_and_is_named(experiment, tmp_path):
+    copy = shutil.copytree(experiment, tmp_path / "copy")
+    run = RunFolder.open(copy / "with-ignore" / "seed-0001")
+    path = part_path(run, late_spans(run)[0])
+    path.write_bytes(path.read_bytes()[:-100])
+    results = analyse(open_experiment(copy))
+    assert results.conditions[Condition.WITH_IGNORE].seeds.tolist() == [2]
+    (sentence,) = results.missing
+    assert sentence.startswith("with-ignore, seed 1: left out, ")
+    assert f"remove it and repeat: wordarm postevaluate {run.path}" in sentence
+
+
+def test_an_unreadable_run_and_a_missing_seed_are_named(experiment, tmp_path):
+    copy = shutil.copytree(experiment, tmp_path / "copy")
+    config = copy / "with-indicate" / "seed-0001" / "config.toml"
+    config.write_text("seed = [", encoding="utf-8")
+    results = analyse(open_experiment(copy))
+    unreadable, absent = results.missing
+    assert unreadable.startswith(f"{config} cannot be read")
+    assert absent.startswith("with-indicate has no run of seed 1, which the other condition has")
+    assert results.conditions[Condition.WITH_INDICATE].seeds.tolist() == [2]
+
+
+def test_an_unfinished_run_is_told_how_to_go_on(tmp_path):
+    config = RunConfig(Condition.WITH_IGNORE, 3)
+    run = RunFolder.create(tmp_path / "with-ignore" / "seed-0003", config)
+    (sentence,) = analyse(open_experiment(tmp_path)).missing
+    command = f"wordarm evolve --condition=with-ignore --seed=3 --output={run.path}"
+    assert sentence == f"with-ignore, seed 3: left out, 0 generations so far; go on with: {command}"
+    assert parse(command.split()[1:]).config == config
+
+
+def test_tests_go_on_past_a_damaged_run_and_end_with_its_name(experiment, tmp_path, capsys):
+    copy = shutil.copytree(experiment, tmp_path / "copy")
+    damaged = RunFolder.open(copy / "with-indicate" / "seed-0001")
+    path = part_path(damaged, late_spans(damaged)[0])
+    path.write_bytes(b"nothing")
+    later = RunFolder.open(copy / "with-ignore" / "seed-0002")
+    part_path(later, late_spans(later)[0]).unlink()
+    assert main(["postevaluate", str(copy)]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert str(path) in error
+    assert part_path(later, late_spans(later)[0]).exists()
 
 
 def test_every_figure_can_be_drawn(experiment):

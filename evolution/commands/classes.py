@@ -1,0 +1,107 @@
+"""`wordarm classes`: how compositional, partial and non-compositional agents do it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tyro.conf import Positional
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from evolution.figures_classes import Behaviours
+
+
+@dataclass(frozen=True)
+class Classes:
+    """Observe a sample of each class of agents: which word they follow, and which they need.
+
+    Every run is the unit: its agents are averaged first. Repeat the command to go on where it was stopped.
+    """
+
+    experiment: Positional[Path]
+    """Folder of an experiment that was post-evaluated, or of one run."""
+
+    agents: int = 10
+    """Agents of each class and run, at most: distinct genotypes, spread over the generations."""
+
+    trials_per_area: int = 10
+    """Trials of each instruction from each of the two start areas."""
+
+    trial_seed: int = 0
+    """Start angles and object positions follow from it."""
+
+    figures: bool = True
+    """Whether tables and figures are written, or the observations only kept beside each run."""
+
+    output: Path | None = None
+    """Folder for tables and figures. By default `results` in the experiment's folder."""
+
+    def run(self) -> int:
+        """Observe run by run, then write and print."""
+        from rich.console import Console
+        from rich.progress import track
+
+        from evolution.class_files import behaviours_of, write_classes
+        from evolution.class_observation import Sampling, observe
+        from evolution.experiment import open_experiment
+        from evolution.lock import locked
+        from evolution.tested_runs import name_of, unfinished
+
+        sampling, console = Sampling(self.agents, self.trials_per_area, self.trial_seed), Console()
+        observed = []
+        runs = open_experiment(self.experiment).all_runs
+        for run in track(runs, "runs observed", console=console, transient=True):
+            try:
+                if reason := unfinished(run):
+                    raise ValueError(reason)
+                with locked(run.path):
+                    observed.append((run, observe(run, sampling)))
+            except ValueError as error:
+                console.print(f"{name_of(run)}: left out, {error}", highlight=False, soft_wrap=True)
+        if not observed:
+            raise ValueError(f"no run in {self.experiment} can be observed, for the reasons above")
+        if self.figures:
+            behaviours = behaviours_of(observed)
+            console.print(_table(behaviours))
+            for path in write_classes(behaviours, sampling, self.output or self.experiment / "results"):
+                print(path)
+        return 0
+
+
+def _table(behaviours: Behaviours) -> Table:
+    """Object word before sight, action word after it, and success intact and with the harmless lesions."""
+    from rich.table import Table
+
+    from evolution.figures_classes import SHORT
+    from evolution.lesions import LESIONS
+    from evolution.report_text import TITLES
+
+    table = Table(
+        "condition", "class", "agents", "runs",
+        "object\nbefore", "action\nafter", "intact",
+        "action\nsilenced\nbefore", "object\nsilenced\nafter",
+        title="share of variance explained before, after first sight; success, experienced",
+    )  # fmt: skip
+    places = [1 + i for i, each in enumerate(LESIONS) if each.harmless and each.manner == "silenced"]
+    for condition, classes in behaviours.items():
+        for kind, each in classes.items():
+            if len(each.seeds):
+                success = each.success(known=True).mean(axis=0)
+                values = (each.windows[:, 0, 0], each.windows[:, 1, 1], *success[[0, *places]])
+                shown = [_percent(value) for value in values]
+            else:
+                shown = ["-"] * 5
+            counts = (str(int(each.agents.sum())), str(len(each.seeds)))
+            table.add_row(TITLES[condition], SHORT[kind], *counts, *shown)
+    return table
+
+
+def _percent(values) -> str:
+    """The mean of what is known of some values, or a stroke."""
+    import numpy as np
+
+    found = np.atleast_1d(values)[np.isfinite(np.atleast_1d(values))]
+    return f"{100 * found.mean():.0f} %" if len(found) else "-"

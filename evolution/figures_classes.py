@@ -1,0 +1,124 @@
+"""How agents of each class do it: which word their neurons follow and when, and what they need."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from arm2d import Condition
+from arm2d.drawing import INK
+from evolution.class_observation import PARTS
+from evolution.class_results import ClassBehaviour
+from evolution.events import WINDOWS
+from evolution.figures_generalisers import CLASS_COLOURS
+from evolution.figures_neurons import SHARE_COLOURS, SHARE_LABELS
+from evolution.lesions import LESIONS
+from evolution.report_text import TITLES
+from evolution.style import FAINT, STYLE
+from evolution.subtasks import AgentClass
+
+Behaviours = Mapping[Condition, Mapping[AgentClass, ClassBehaviour]]
+
+# Windows that are shown, of `WINDOWS`: the search, and what follows sight.
+SHOWN_WINDOWS: Final = (0, 1)
+SHORT: Final = {
+    AgentClass.FULL: "fully",
+    AgentClass.PARTIAL: "partially",
+    AgentClass.NONE: "non-comp.",
+}
+
+
+def classes_figure(behaviours: Behaviours) -> Figure:
+    """A row for each condition: shares of variance before and after sight; success with each lesion."""
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(10.4, 0.9 + 4.3 * len(behaviours)), layout="constrained")
+        panels = figure.subplots(len(behaviours), 2, squeeze=False, width_ratios=(1, 1.15))
+        for (left, right), (condition, classes) in zip(panels, behaviours.items(), strict=True):
+            draw_shares(left, list(classes.values()))
+            draw_success(right, list(classes.values()))
+            left.set_title(f"{TITLES[condition]}: what the neurons follow", loc="left", fontweight="bold")
+            right.set_title("what is left without a word", loc="left", fontweight="bold")
+        shares = [Patch(color=SHARE_COLOURS[part], label=SHARE_LABELS[part]) for part in PARTS]
+        figure.legend(handles=shares, loc="outside lower left", frameon=False, ncols=2, fontsize=8.5)
+        figure.legend(
+            handles=_class_handles(), loc="outside lower right", frameon=False, ncols=3, fontsize=8.5
+        )
+    return figure
+
+
+def draw_shares(axes: Axes, classes: Sequence[ClassBehaviour]) -> None:
+    """A bar for each class in each window, stacked to 100 %; a mean over runs."""
+    places, labels = [], []
+    for group, window in enumerate(SHOWN_WINDOWS):
+        start = group * (len(classes) + 1.1)
+        axes.text(0, start - 0.62, list(WINDOWS)[window], fontsize=8.5, fontweight="bold", va="center")
+        for row, each in enumerate(classes):
+            places.append(start + row)
+            labels.append(f"{SHORT[each.kind]}\n{_count(each)}")
+            _draw_bar(axes, places[-1], each, window)
+    axes.set_yticks(places, labels, fontsize=8)
+    axes.set(xlim=(0, 100), ylim=(places[-1] + 0.6, -1.0), xlabel="share of the variance [%]")
+    axes.tick_params(axis="y", length=0)
+    axes.spines[["top", "right", "left"]].set_visible(False)
+
+
+def _draw_bar(axes: Axes, place: float, each: ClassBehaviour, window: int) -> None:
+    values = each.windows[:, window] if len(each.seeds) else np.empty((0, len(PARTS)))
+    values = values[np.isfinite(values).all(axis=1)]
+    if not len(values):
+        why = "no such agent" if not len(each.seeds) else "too few trials come so far"
+        axes.text(1, place, why, va="center", fontsize=8, color=FAINT)
+        return
+    left = 0.0
+    for part, share in zip(PARTS, 100 * values.mean(axis=0), strict=True):
+        axes.barh(place, share, 0.78, left=left, color=SHARE_COLOURS[part], lw=0)
+        if share >= 9 and part != "rest":
+            ink = "white" if part == "action" else INK
+            axes.text(
+                left + share / 2, place, f"{share:.0f}", ha="center", va="center", fontsize=8, color=ink
+            )
+        left += share
+
+
+def draw_success(axes: Axes, classes: Sequence[ClassBehaviour]) -> None:
+    """Success of the experienced instructions, intact and with each lesion: runs pale, their mean full."""
+    harmless = sum(each.harmless for each in LESIONS)
+    places = np.array([0.0, *(1.6 + i + 1.0 * (not each.harmless) for i, each in enumerate(LESIONS))])
+    for offset, each in zip((-0.24, 0.0, 0.24), classes, strict=True):
+        if not len(each.seeds):
+            continue
+        colour, success = CLASS_COLOURS[each.kind], 100 * each.success(known=True)
+        axes.plot(
+            success.T, np.tile(places + offset, (len(success), 1)).T, "o", ms=3, alpha=0.35, color=colour
+        )
+        axes.plot(success.mean(axis=0), places + offset, "o", ms=6.5, color=colour, mec="white", mew=0.7)
+    for first, text in ((1, "the paper's agent would not mind"), (1 + harmless, "it would fail")):
+        axes.text(0, places[first] - 0.72, text, fontsize=8.5, fontweight="bold", va="center")
+    names = ["intact", *(f"{each.word} word {each.manner} {each.time}" for each in LESIONS)]
+    axes.set_yticks(places, names, fontsize=8)
+    axes.set(xlim=(-2, 102), ylim=(places[-1] + 0.6, -0.7), xlabel="success, experienced instructions [%]")
+    axes.grid(axis="y", color=FAINT, alpha=0.25, lw=0.5)
+    axes.tick_params(axis="y", length=0)
+    axes.spines[["top", "right", "left"]].set_visible(False)
+
+
+def _count(each: ClassBehaviour) -> str:
+    """Agents and runs behind a bar."""
+    agents, runs = int(each.agents.sum()), len(each.seeds)
+    if not runs:
+        return "none"
+    return f"{agents} agent{'s' if agents != 1 else ''}, {runs} run{'s' if runs != 1 else ''}"
+
+
+def _class_handles() -> list[Line2D]:
+    return [
+        Line2D([], [], ls="", marker="o", ms=6.5, color=colour, mec="white", label=str(kind))
+        for kind, colour in CLASS_COLOURS.items()
+    ]

@@ -1,0 +1,144 @@
+"""Several experiments beside the paper: a panel for each kind of number, a row for each experiment."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from arm2d import Condition
+from arm2d.drawing import INK
+from evolution.figures_classes import SHORT
+from evolution.key_numbers import (
+    AT_LIMIT,
+    PLATEAU,
+    SOLVED,
+    WITH_FULL,
+    KeyNumber,
+    by_condition,
+    pass_name,
+    top_name,
+)
+from evolution.published import LARGEST_FITNESS
+from evolution.report_text import TITLES
+from evolution.results import Results
+from evolution.style import FAINT, STYLE
+from evolution.subtasks import SUBTASKS
+
+PAPER: Final = "#8A857A"
+OURS: Final = "#12545F"
+# Title of each panel and the key numbers in it, with their short names.
+COUNTS: Final = {AT_LIMIT: "end at 18/7", SOLVED: "solve all 28 trials", WITH_FULL: "have generalisers"}
+TOPS: Final = {top_name(name): f"sub-task {name}" for name in SUBTASKS}
+PASSES: Final = {
+    pass_name(kind, word): f"{short}, {word}"
+    for kind, short in SHORT.items()
+    for word in ("action", "object")
+}
+
+
+def compare_figure(experiments: Mapping[str, Results]) -> Figure:
+    """A row of four panels for each condition: plateaus, runs, category 10, transitions."""
+    conditions = by_condition(experiments)
+    names = list(experiments)
+    height = 0.9 + len(conditions) * (1.6 + 0.5 * len(names))
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(11.5, height), layout="constrained")
+        panels = figure.subplots(len(conditions), 4, squeeze=False, width_ratios=(1, 1, 1.1, 1.1))
+        lowest = _lowest(conditions)
+        for row, (condition, by_name) in zip(panels, conditions.items(), strict=True):
+            by_number = {name: {number.name: number for number in by_name.get(name, [])} for name in names}
+            draw_plateaus(row[0], by_number)
+            row[0].set_xlim(lowest - 0.03, LARGEST_FITNESS + 0.03)
+            row[0].set_title(TITLES[condition], loc="left", fontweight="bold")
+            draw_numbers(row[1], by_number, COUNTS, runs=True)
+            draw_numbers(row[2], by_number, TOPS)
+            draw_numbers(row[3], by_number, PASSES)
+            for axes, label in zip(row, _labels(), strict=True):
+                axes.set_xlabel(label, fontsize=9)
+        place = {"loc": "outside lower center", "frameon": False, "ncols": 6, "fontsize": 8.5}
+        figure.legend(handles=_handles(names), **place)
+    return figure
+
+
+def draw_plateaus(axes: Axes, by_number: Mapping[str, Mapping[str, KeyNumber]]) -> None:
+    """Each run's plateau, a row for each experiment; the largest fitness as a line."""
+    axes.axvline(LARGEST_FITNESS, color=FAINT, lw=1.0, ls=(0, (4, 3)))
+    for row, (name, numbers) in enumerate(by_number.items()):
+        if PLATEAU in numbers:
+            values = np.sort(numbers[PLATEAU].runs)
+            spread = 0.16 * (np.arange(len(values)) % 3 - 1)
+            axes.plot(
+                values, row + spread, "o", ms=4.5, alpha=0.75, color=_colour(name, by_number), mec="white"
+            )
+    axes.set_yticks(range(len(by_number)), list(by_number), fontsize=8.5)
+    axes.set_ylim(len(by_number) - 0.4, -0.6)
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def draw_numbers(
+    axes: Axes,
+    by_number: Mapping[str, Mapping[str, KeyNumber]],
+    shown: Mapping[str, str],
+    *,
+    runs: bool = False,
+) -> None:
+    """Numbers in per cent (of runs, or of agents), a line for each, the paper's as a stroke."""
+    names = list(by_number)
+    offsets = np.linspace(-0.26, 0.26, len(names)) if len(names) > 1 else [0.0]
+    for row, key in enumerate(shown):
+        for offset, name in zip(offsets, names, strict=True):
+            number = by_number[name].get(key)
+            if number is None:
+                continue
+            colour, scale = _colour(name, by_number), 100 / max(number.of, 1) if runs else 100
+            if number.published is not None:
+                theirs = number.published * (10 if runs else 100)  # the paper has ten runs
+                axes.plot([theirs] * 2, [row - 0.38, row + 0.38], color=PAPER, lw=2.6, solid_capstyle="butt")
+            if len(number.runs):
+                each = 100 * number.runs
+                axes.plot(each, np.full(len(each), row + offset), "o", ms=3, alpha=0.3, color=colour)
+            if np.isfinite(number.ours):
+                axes.plot(scale * number.ours, row + offset, "o", ms=6.5, color=colour, mec="white", mew=0.7)
+    axes.set_yticks(range(len(shown)), list(shown.values()), fontsize=8.5)
+    axes.set(xlim=(-3, 103), ylim=(len(shown) - 0.4, -0.6))
+    axes.grid(axis="y", color=FAINT, alpha=0.25, lw=0.5)
+    axes.spines[["top", "right", "left"]].set_visible(False)
+    axes.tick_params(axis="y", length=0)
+
+
+def _lowest(conditions: Mapping[Condition, Mapping[str, list[KeyNumber]]]) -> float:
+    """The lowest plateau of all, so that all panels share one scale."""
+    numbers = [each for by_name in conditions.values() for own in by_name.values() for each in own]
+    lowest = [float(each.runs.min()) for each in numbers if each.name == PLATEAU and len(each.runs)]
+    return min([*lowest, LARGEST_FITNESS - 0.1])
+
+
+def _colour(name: str, experiments: Mapping[str, object]):
+    """From deep teal on, one colour for each experiment."""
+    palette = (OURS, "#C2572B", "#7B5EA7", "#3E7D3A", "#B08D1E", "#444444")
+    return palette[list(experiments).index(name) % len(palette)]
+
+
+def _labels() -> tuple[str, str, str, str]:
+    return (
+        "plateau of each run, best fitness",
+        "share of runs [%]",
+        "agents in category 10 [%]",
+        "agents that pass a transition [%]",
+    )
+
+
+def _handles(names: list[str]) -> list[Line2D]:
+    handles = [
+        Line2D([], [], ls="", marker="o", ms=6.5, color=_colour(name, dict.fromkeys(names)), label=name)
+        for name in names
+    ]
+    handles.append(Line2D([], [], color=PAPER, lw=2.6, label="published"))
+    handles.append(Line2D([], [], ls="", marker="o", ms=3, alpha=0.5, color=INK, label="a single run"))
+    return handles

@@ -1,0 +1,91 @@
+"""Trajectory fans by class: one representative agent of each, all nine instructions beneath each other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+from arm2d import Condition
+from arm2d.constants import DT
+from evolution.behaviour import record_behaviour
+from evolution.class_observation import Sampling
+from evolution.class_results import ClassBehaviour
+from evolution.figures_behaviour import draw_alpha, draw_beta, head, trajectory_handles
+from evolution.recorded import recorded_generation
+from evolution.report_text import TITLES
+from evolution.style import FAINT, STYLE
+from evolution.subtasks import AgentClass
+
+PER_AREA: Final = 5
+ROW: Final = 1.16  # height of an instruction [in]
+HEAD, FOOT = 1.25, 0.75  # [in]
+
+
+def fans_figure(
+    condition: Condition, classes: Mapping[AgentClass, ClassBehaviour], sampling: Sampling
+) -> Figure | None:
+    """A column for each class that has agents: its representative in fresh trials; None if no class has.
+
+    The representative is the observed agent whose success on the nine instructions is nearest to the mean
+    of its class.
+    """
+    shown = {kind: each.representative for kind, each in classes.items() if each.representative}
+    if not shown:
+        return None
+    instructions = condition.instructions
+    height = HEAD + FOOT + ROW * len(instructions)
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(3.35 * len(shown) + 0.6, height))
+        what = "An agent of each class" if len(shown) > 1 else "An agent of the only class there is"
+        head(figure, what, f"{TITLES[condition]}; nearest in success to the mean of its class")
+        left = 0.75 / figure.get_size_inches()[0]
+        grid = figure.add_gridspec(
+            len(instructions), len(shown), left=left, right=0.985,
+            top=1 - HEAD / height, bottom=FOOT / height, hspace=0.42, wspace=0.1,
+        )  # fmt: skip
+        for column, (kind, (run, generation, rank)) in enumerate(shown.items()):
+            genotype = recorded_generation(run, generation).best_genotypes[0, rank]
+            readings = run.config.readings
+            behaviour = record_behaviour(
+                genotype, condition, readings, per_area=PER_AREA, trial_seed=sampling.trial_seed
+            )
+            end = DT * behaviour.steps.max()
+            for row, instruction in enumerate(instructions):
+                cell = grid[row, column].subgridspec(2, 1, height_ratios=(2.4, 1), hspace=0.08)
+                above, below = figure.add_subplot(cell[0]), figure.add_subplot(cell[1])
+                draw_alpha(above, behaviour, instruction, readings)
+                draw_beta(below, behaviour, instruction)
+                _trim(above, below, end, column, row == len(instructions) - 1)
+                if row == 0:
+                    name = f"{run.config.seed}, generation {generation}, rank {rank}"
+                    above.annotate(
+                        str(kind), (0, 1), xytext=(0, 32), xycoords="axes fraction",
+                        textcoords="offset points", fontsize=11.5, fontweight="bold",
+                    )  # fmt: skip
+                    above.annotate(
+                        f"seed {name}", (0, 1), xytext=(0, 20), xycoords="axes fraction",
+                        textcoords="offset points", fontsize=8.5, color=FAINT,
+                    )  # fmt: skip
+        handles = trajectory_handles()
+        figure.legend(
+            handles=handles, loc="lower center", frameon=False, ncols=min(5, 2 * len(shown)), fontsize=8
+        )
+    return figure
+
+
+def _trim(above, below, end: float, column: int, lowest: bool) -> None:
+    """Limits and labels of a pair of panels."""
+    for axes in (above, below):
+        axes.set_xlim(0, end)
+        if column:
+            axes.set_yticklabels([])
+    if not column:
+        above.set_ylabel("alpha [°]", fontsize=8)
+        below.set_ylabel("beta", fontsize=8)
+    if lowest:
+        below.set_xlabel("time [s]", fontsize=9)
+    else:
+        below.set_xticklabels([])

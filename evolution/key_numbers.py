@@ -1,0 +1,138 @@
+"""The key numbers of an experiment, as numbers, with the published ones where the paper gives them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import Condition, Readings
+from evolution import published
+from evolution.results import ConditionResults, Results
+from evolution.subtasks import SUBTASKS, AgentClass
+
+PLATEAU: Final = "plateau"
+AT_LIMIT: Final = "runs that end at 18/7"
+SOLVED: Final = "runs in which one genotype solved all trials"
+WITH_FULL: Final = "runs with fully compositional agents"
+
+
+@dataclass(frozen=True)
+class KeyNumber:
+    """One number of one condition.
+
+    Attributes:
+        name: What it is.
+        published: In the paper; None where it gives none.
+        ours: In the experiment; NaN if no run or no agent is there to tell.
+        of: Runs or agents that `ours` is a number or share of.
+        runs: [R], the same for each run, where that makes sense; else empty.
+    """
+
+    name: str
+    published: float | None
+    ours: float
+    of: int
+    runs: NDArray[np.float64]
+
+
+def top_name(subtask: str) -> str:
+    """Name of the share of agents in category 10 of a sub-task."""
+    return f"share of agents in category 10, sub-task {subtask}"
+
+
+def pass_name(kind: AgentClass, word: str) -> str:
+    """Name of the share of a class that passes a transition test."""
+    return f"share of {kind} agents that pass the {word} transition"
+
+
+def class_name(kind: AgentClass) -> str:
+    """Name of the share of agents in a class."""
+    return f"share of {kind} agents"
+
+
+def key_numbers(each: ConditionResults) -> list[KeyNumber]:
+    """All key numbers of a condition."""
+    n, indicate = len(each.runs), each.condition is Condition.WITH_INDICATE
+    full = each.members[AgentClass.FULL] > 0
+    with_full = float(published.RUNS_WITH_GENERALISERS) if indicate else None
+    numbers = [
+        KeyNumber(
+            PLATEAU, published.PLATEAU, float(np.median(each.plateau)) if n else np.nan, n, each.plateau
+        ),
+        _count(AT_LIMIT, float(published.RUNS), each.at_plateau, n),
+        _count(SOLVED, None, int((each.first_solved >= 0).sum()), n),
+        _count(WITH_FULL, with_full, int(full.sum()), n),
+    ]
+    for column, name in enumerate(SUBTASKS):
+        theirs = published.TABLE_II[each.condition][-1, column] / published.AGENTS
+        numbers.append(_share(top_name(name), float(theirs), each.share_in_top(name), each.n_agents))
+    for kind in AgentClass:
+        numbers.append(_share(class_name(kind), None, each.share_of_class(kind), each.n_agents))
+    for kind, outcome in each.transitions.items():
+        for word, passed in (("action", outcome.action_passed), ("object", outcome.object_passed)):
+            ours = passed / outcome.agents if outcome.agents else np.nan
+            numbers.append(KeyNumber(pass_name(kind, word), None, ours, outcome.agents, np.empty(0)))
+    return numbers
+
+
+def comparison_rows(experiments: Mapping[str, Results]) -> Iterable[Sequence[object]]:
+    """A row for each condition and key number: the paper's, then ours and of how many, by experiment."""
+    heads = [
+        f"{name}{what}" for name in experiments for what in ("", ", of", ", lowest run", ", highest run")
+    ]
+    yield ("condition", "number", "published", *heads)
+    for condition, by_name in by_condition(experiments).items():
+        some = next(iter(by_name.values()))
+        for place, number in enumerate(some):
+            cells = []
+            for name in experiments:
+                own = by_name[name][place] if name in by_name else None
+                cells += _cells(own)
+            yield (str(condition), number.name, _text(number.published), *cells)
+
+
+def by_condition(experiments: Mapping[str, Results]) -> dict[Condition, dict[str, list[KeyNumber]]]:
+    """Key numbers by condition and experiment; conditions that no experiment has are left out."""
+    found: dict[Condition, dict[str, list[KeyNumber]]] = {}
+    for condition in Condition:
+        own = {
+            name: key_numbers(results.conditions[condition])
+            for name, results in experiments.items()
+            if condition in results.conditions
+        }
+        if own:
+            found[condition] = own
+    return found
+
+
+def departures(readings: Readings) -> str:
+    """The readings that are not the default ones, in words."""
+    default, values = Readings().to_mapping(), readings.to_mapping()
+    other = [f"{name.replace('_', ' ')} {values[name]}" for name in values if values[name] != default[name]]
+    return "; ".join(other) or "default readings"
+
+
+def _count(name: str, theirs: float | None, ours: int, n: int) -> KeyNumber:
+    return KeyNumber(name, theirs, float(ours) if n else np.nan, n, np.empty(0))
+
+
+def _share(name: str, theirs: float | None, runs: NDArray[np.float64], n_agents: int) -> KeyNumber:
+    return KeyNumber(name, theirs, float(runs.mean()) if len(runs) else np.nan, n_agents, runs)
+
+
+def _cells(number: KeyNumber | None) -> list[str]:
+    """The number, of how many, and its range over runs."""
+    if number is None:
+        return [""] * 4
+    ends = (number.runs.min(), number.runs.max()) if len(number.runs) else (None, None)
+    return [_text(number.ours), str(number.of), *map(_text, ends)]
+
+
+def _text(value: float | None) -> str:
+    if value is None or np.isnan(value):
+        return ""
+    return f"{value:.4f}".rstrip("0").rstrip(".")
