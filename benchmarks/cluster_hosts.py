@@ -30,7 +30,8 @@ HOSTS = ("wordarm0", "wordarm1", "wordarm2")
 BRIDGE = "wordarm"
 NETWORK = "10.77.0"
 ADDRESS = f"tcp://{NETWORK}.10:8786"
-CONFIGS = tuple(RunConfig(seed=seed, settings=Settings(generations=2000)) for seed in (1, 2))
+SMALL = Settings(population=20, elites=2, parents=10, generations=1500)
+CONFIGS = tuple(RunConfig(seed=seed, settings=SMALL) for seed in (1, 2))
 DASK = (sys.executable, "-m", "dask")
 
 
