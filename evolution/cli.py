@@ -35,6 +35,7 @@ from evolution.commands.status import Status
 from evolution.commands.study import StudyCommand
 from evolution.commands.torture import TortureCommand
 from evolution.commands.verify import Verify
+from evolution.commands.workspace import Workspace
 
 DESCRIPTION: Final = "An arm that obeys two-word instructions: evolve its controllers, test them, show them."
 BAD_INPUT: Final = 2
@@ -63,6 +64,7 @@ Command = (
     | StudyCommand
     | TortureCommand
     | Verify
+    | Workspace
     | Analyse
 )
 
@@ -125,6 +127,7 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
         | Annotated[StudyCommand, subcommand("study")]
         | Annotated[TortureCommand, subcommand("torture")]
         | Annotated[Verify, subcommand("verify")]
+        | Annotated[Workspace, subcommand("workspace")]
         | Annotated[Analyse, subcommand("analyse")]
     )
     return tyro.cli(commands, prog="wordarm", description=DESCRIPTION, args=arguments)  # pyright: ignore

@@ -144,8 +144,8 @@ ICUB_APPEARANCE = Appearance(
     ),
     ornaments=(
         # Without legs, the robot stands on a column.
-        Ornament("root_link", "cylinder", (0.045,), (0.0, 0.0, -0.02), "leg", to=(0.0, 0.0, -0.78)),
-        Ornament("root_link", "cylinder", (0.16,), (0.0, 0.0, -0.77), "leg", to=(0.0, 0.0, -0.788)),
+        Ornament("root_link", "cylinder", (0.045,), (0.0, 0.0, -0.02), "leg", to=(0.0, 0.0, -0.88)),
+        Ornament("root_link", "cylinder", (0.16,), (0.0, 0.0, -0.87), "leg", to=(0.0, 0.0, -0.887)),
         *eye("head", (0.034, 0.1043, 0.0505), GAZE),
         *eye("head", (-0.034, 0.1043, 0.0505), GAZE),
         *line("head", MOUTH, LAMP_RADIUS, "lamp"),

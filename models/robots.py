@@ -25,17 +25,21 @@ class UnknownRobotError(ValueError):
 
 @dataclass(frozen=True)
 class PlaneMap:
-    """How the 2D world is laid on the table: X = scale x, Y = scale y, at one height.
+    """How the 2D world is laid on the table: X = scale x, Y = scale y, the higher the more S2 is bent.
 
     Attributes:
         scale: [m/cm], metres on the table per centimetre in the 2D world.
-        hand_height: [m], height of the hand's reference point above the table top.
+        hand_height: [m], height of the hand's reference point above the table top while S2 is straight.
+        lift: [m], how much higher it is while S2 is bent: above the objects, which a bent S2 passes by.
+        lift_range: [deg], beta at which the hand begins to rise, and from which on it is lifted fully.
         heading_range: [rad], the hand points along the radial direction from J1 but turns no further
             than this: beyond, the arm would have to fold behind the robot's side.
     """
 
     scale: float
     hand_height: float
+    lift: float
+    lift_range: tuple[float, float]
     heading_range: tuple[float, float]
 
 
@@ -47,7 +51,9 @@ class Posture:
         rest: [J] in [rad], the posture that is approached.
         weights: [J], cost of the squared distance to `rest` per joint [1/rad^2].
         heading_weight: cost of the squared error of the hand's heading [1/rad^2].
-        level_weight: cost of the squared tilt of the palm against the table.
+        roll: [rad], wanted turn of the palm about the fingers: the thumb is to be so far above the edge of
+            the little finger; at 0 the palm lies flat above the table.
+        level_weight: cost of the squared departure from it, and from fingers parallel to the table.
         inertia: cost of the squared change per step [1/rad^2]; below 0.3 the arm oscillates, and the more
             there is, the smaller are its jumps.
     """
@@ -56,6 +62,7 @@ class Posture:
     weights: tuple[float, ...]
     heading_weight: float
     level_weight: float
+    roll: float
     inertia: float
 
 
@@ -128,17 +135,25 @@ ICUB = Robot(
         "r_wrist_yaw",
     ),
     hand_frame="r_hand_dh_frame",
-    # The palm's edge on the little finger's side lies at y = 0.033, 17 mm to the left of the point. When S2
-    # meets the disc of 5 cm, the cylinder's centre is 9 mm to the right of it: 25 mm, its radius, apart.
-    hand_offset=(0.085, 0.05, -0.010),
-    base_position=(-0.1983, -0.2758, 0.0223),
+    # Beside the tip of the little finger. With the roll below, the hand's rightmost places near the tip are
+    # 10 mm to the left of the point; when S2 meets the disc of 5 cm, the cylinder's centre is 10 mm to the
+    # right of it, and so 20 mm, its radius, from them. The hand's lowest place is 20 mm below the point.
+    hand_offset=(0.0744, 0.0270, -0.0288),
+    base_position=(-0.0968, -0.2966, 0.1205),
     base_yaw=-pi / 2,  # the iCub of the URDF faces -x
-    plane=PlaneMap(scale=0.0018, hand_height=0.05, heading_range=(-pi / 12, 17 * pi / 18)),
+    plane=PlaneMap(
+        scale=0.002,
+        hand_height=0.035,
+        lift=0.055,
+        lift_range=(10.0, 30.0),
+        heading_range=(-pi / 12, 17 * pi / 18),
+    ),
     posture=Posture(
-        rest=(0.170, 0.018, -0.285, -1.254, 1.029, 0.550, 0.675, 0.823, -0.211, 0.004),
-        weights=(0.419, 0.522, 0.262, 0.0110, 0.0775, 0.0182, 0.142, 0.0305, 0.233, 0.217),
-        heading_weight=0.195,
-        level_weight=0.455,
+        rest=(-0.049, 0.318, -0.254, -1.667, 1.260, 0.268, 0.985, 0.095, -0.192, -0.046),
+        weights=(0.0829, 0.146, 0.0786, 0.00296, 0.107, 0.0291, 0.157, 0.0535, 0.0418, 0.456),
+        heading_weight=0.234,
+        level_weight=0.54,
+        roll=pi / 3,
         inertia=0.7,
     ),
     # Nothing of the legs is seen at the table, and they are half of the triangles to be drawn.

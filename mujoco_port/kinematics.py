@@ -1,6 +1,6 @@
 """Inverse kinematics: from hand targets to joint angles, with Pinocchio.
 
-The hand's position is met exactly, its heading and level as nearly as the posture allows for:
+The hand's position is met exactly, its heading and roll as nearly as the posture allows for:
 
     minimise    1/2 |q - rest|^2_W + w_h/2 heading(q)^2 + w_l/2 |tilt(q)|^2
     subject to  position(q) = target,   lower <= q <= upper
@@ -77,6 +77,7 @@ class ArmKinematics:
         self.upper = self._model.upperPositionLimit.copy()
         self._weights = np.array(posture.weights)
         self._metric = np.diag(self._weights)
+        self._down = np.array([0.0, np.sin(posture.roll), np.cos(posture.roll)])
         self._no_pull = np.zeros_like(self._weights)
         self._wishes = np.array([posture.heading_weight, posture.level_weight, posture.inertia])
         for array in (self.rest, self.lower, self.upper):
@@ -87,6 +88,15 @@ class ArmKinematics:
         pin.framesForwardKinematics(self._model, self._data, np.asarray(angles, dtype=float))
         placement = self._data.oMf[self._hand]
         return HandPose(placement.translation.copy(), placement.rotation.copy())
+
+    def roll_error(self, pose: HandPose) -> float:
+        """Give the angle [rad] between the palm's wanted direction and that of a pose."""
+        return float(np.arccos(np.clip(-(pose.rotation @ self._down)[2], -1.0, 1.0)))
+
+    def heading_error(self, pose: HandPose, heading: float) -> float:
+        """Give by how much [rad] the fingers of a pose point away from a heading [rad]."""
+        off = np.arctan2(pose.rotation[1, 0], pose.rotation[0, 0]) - heading
+        return float(abs((off + np.pi) % (2 * np.pi) - np.pi))
 
     def settle(self, target: np.ndarray, heading: float) -> np.ndarray:
         """Give the posture [J] in [rad] for one target, whatever came before: the start of a trial.
@@ -149,6 +159,7 @@ class ArmKinematics:
             hand.rotation,
             target - hand.translation,
             heading,
+            self._down,
             self.rest,
             self._weights,
             self._wishes,

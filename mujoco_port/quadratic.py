@@ -25,7 +25,7 @@ MAX_STEP = 0.3  # [rad], of one joint in one step: beyond, the linear model says
 
 
 @compiled
-def relaxed(angles, jacobian, hand, error, heading, rest, weights, wishes, lower, upper):
+def relaxed(angles, jacobian, hand, error, heading, down, rest, weights, wishes, lower, upper):
     """Give the angles [J] after a proximal Gauss-Newton step on position, rest, heading and level together.
 
     Args:
@@ -34,6 +34,7 @@ def relaxed(angles, jacobian, hand, error, heading, rest, weights, wishes, lower
         hand: [3, 3], rotation of the hand; x along the fingers, z out of the palm.
         error: [3] in [m], from the hand to the target.
         heading: [rad], wanted direction of the fingers in the plane.
+        down: [3], direction in the hand's frame that is to point down.
         rest: [J] in [rad].
         weights: [J], cost of the squared distance to `rest`.
         wishes: [3], cost of squared heading error, squared tilt and squared step.
@@ -42,16 +43,20 @@ def relaxed(angles, jacobian, hand, error, heading, rest, weights, wishes, lower
     """
     n = angles.size
     rows = np.empty((3, n))  # derivatives of heading and of the two components of the tilt
-    x, z = hand[:, 0], hand[:, 2]
+    x = hand[:, 0]
+    z = down[0] * hand[:, 0] + down[1] * hand[:, 1] + down[2] * hand[:, 2]
     flat = max(x[0] * x[0] + x[1] * x[1], 1e-6)
     for j in range(n):
         wx, wy, wz = jacobian[3, j], jacobian[4, j], jacobian[5, j]
         rows[0, j] = wz - x[2] * (wx * x[0] + wy * x[1]) / flat  # d atan2(x_y, x_x), as dx = w cross x
-        rows[1, j] = wy * z[2] - wz * z[1]  # dz = w cross z; a level palm has z = (0, 0, -1)
-        rows[2, j] = wz * z[0] - wx * z[2]
+        rows[1, j], rows[2, j] = -wy, wx
     off = np.arctan2(x[1], x[0]) - heading
     off -= 2 * np.pi * np.round(off / (2 * np.pi))
-    residuals = (wishes[0] * off, wishes[1] * z[0], wishes[1] * z[1])
+    # The tilt is the angle from z to (0, 0, -1), not its sine: a hand that lies on its back must want to turn
+    # over. With these rows its gradient is exact and its Hessian not too small.
+    sine = np.sqrt(z[0] * z[0] + z[1] * z[1])
+    stretch = np.arctan2(sine, -z[2]) / max(sine, 1e-9)
+    residuals = (wishes[0] * off, wishes[1] * stretch * z[0], wishes[1] * stretch * z[1])
     costs = (wishes[0], wishes[1], wishes[1])
 
     hessian = np.zeros((n, n))

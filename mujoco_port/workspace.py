@@ -1,6 +1,6 @@
 """The planar map: from the angles and discs of the 2D world to the table in front of the robot.
 
-    X = scale x,   Y = scale y,   Z = hand height
+    X = scale x,   Y = scale y,   Z = hand height + lift * rise(beta)
 
 The world frame of the scene is that of the 2D world, so the map is a scale and nothing else; where the robot
 stands in it is the business of its record in `models.robots`.
@@ -9,6 +9,7 @@ stands in it is the business of its record in `models.robots`.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from arm2d.constants import S1_LENGTH, S2_LENGTH
 from models.robots import PlaneMap
@@ -18,7 +19,7 @@ from models.robots import PlaneMap
 BEARING_CUT = -np.pi / 2
 
 
-def tip_in_plane(alpha_deg: np.ndarray, beta_deg: np.ndarray) -> np.ndarray:
+def tip_in_plane(alpha_deg: ArrayLike, beta_deg: ArrayLike) -> np.ndarray:
     """Give the end of S2, [..., 2] in [cm], for joint angles [...] in [deg]."""
     alpha = np.radians(np.asarray(alpha_deg, dtype=float))
     heading = alpha + np.radians(beta_deg)
@@ -31,13 +32,29 @@ def tip_in_plane(alpha_deg: np.ndarray, beta_deg: np.ndarray) -> np.ndarray:
     )
 
 
-def hand_targets(plane: PlaneMap, alpha_deg: np.ndarray, beta_deg: np.ndarray) -> np.ndarray:
+def hand_targets(plane: PlaneMap, alpha_deg: ArrayLike, beta_deg: ArrayLike) -> np.ndarray:
     """Give where the hand's reference point has to be, [..., 3] in [m] in the world."""
     tip = plane.scale * tip_in_plane(alpha_deg, beta_deg)
-    return np.concatenate([tip, np.full_like(tip[..., :1], plane.hand_height)], axis=-1)
+    height = np.broadcast_to(hand_height(plane, beta_deg), tip.shape[:-1])
+    return np.concatenate([tip, height[..., None]], axis=-1)
 
 
-def hand_headings(plane: PlaneMap, alpha_deg: np.ndarray, beta_deg: np.ndarray) -> np.ndarray:
+def hand_height(plane: PlaneMap, beta_deg: ArrayLike) -> np.ndarray:
+    """Give the height [...] in [m] of the hand's reference point above the table top.
+
+    A bent S2 is a line that passes inside the objects; the robot's hand has width and would run into them.
+    So it passes above them, and comes down while S2 stretches: t runs from 0 to 1 over the lift's range,
+
+        height = hand height + lift * t^2 (3 - 2 t)
+
+    which rises without a step in height or speed.
+    """
+    first, last = plane.lift_range
+    part = np.clip((np.asarray(beta_deg, dtype=float) - first) / (last - first), 0.0, 1.0)
+    return plane.hand_height + plane.lift * part**2 * (3.0 - 2.0 * part)
+
+
+def hand_headings(plane: PlaneMap, alpha_deg: ArrayLike, beta_deg: ArrayLike) -> np.ndarray:
     """Give the heading [...] in [rad] the hand should have: away from J1, within limits.
 
     Pushing along an arc about J1 is then always pushing with the hand's edge square to the way: with free

@@ -1,0 +1,97 @@
+"""How truly the hand plays S2: where it overlaps objects S2 does not touch, and misses those it touches.
+
+python -m benchmarks.overlap [AGENT ...]
+
+An agent is a run folder, a genotype file or the name of a shipped champion; by default all shipped ones.
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from arm2d import TrialRecord, draw_trials, record_trial
+from evolution.sources import Source, find_source
+from models.robots import get_robot
+from mujoco_port.gaps import Gaps
+from mujoco_port.rollout import roll_out
+
+AGENTS: Final = ("best-generaliser", "best-specialist", "with-ignore")
+PER_AREA: Final = 3
+SEED: Final = 5
+DEEP: Final = -0.002  # [m]; less is what friction and soft contacts hide
+WIDE: Final = 0.005  # [m]; a touched object further away than this is missed
+RIGHT: Final = 1
+
+
+@dataclass
+class Tally:
+    """Gaps in [m] between hand or arm and an object, by what the 2D world says of it."""
+
+    touched: list[float] = field(default_factory=list)
+    untouched: list[float] = field(default_factory=list)
+    arm: list[float] = field(default_factory=list)
+    trials: int = 0
+    successes: int = 0
+    overlapping: int = 0
+    missing: int = 0
+
+
+def tally(source: Source, gaps: Gaps) -> Tally:
+    """Go through an agent's trials of all nine instructions."""
+    trials = draw_trials(
+        source.condition.instructions, PER_AREA, source.readings, np.random.default_rng(SEED)
+    )
+    total = Tally()
+    for t in range(len(trials)):
+        add(total, record_trial(source.genotype, trials[t], source.readings), gaps)
+    return total
+
+
+def add(total: Tally, record: TrialRecord, gaps: Gaps) -> None:
+    """Go through one trial; moments in which nothing changes count once."""
+    rollout = roll_out(record, gaps.robot, frames_per_step=1)
+    states = np.column_stack([record.alpha, record.beta, record.contact])
+    overlaps = misses = False
+    for k in np.flatnonzero(np.r_[True, (np.diff(states, axis=0) != 0).any(axis=1)]):
+        hand, arm = gaps.measure(rollout.angles[k], rollout.objects[k])
+        touched = record.contact[k] == RIGHT
+        total.touched.extend(hand[touched])
+        total.untouched.extend(hand[record.contact[k] == 0])
+        total.arm.extend(arm)
+        overlaps |= bool((hand[record.contact[k] == 0] < DEEP).any() or (arm < DEEP).any())
+        misses |= bool((hand[touched] > WIDE).any())
+    total.trials += 1
+    total.successes += record.success
+    total.overlapping += record.success and overlaps
+    total.missing += record.success and misses
+
+
+def main(agents: tuple[str, ...]) -> None:
+    """Print a table, one row for each agent."""
+    gaps = Gaps(get_robot("icub"))
+    table = Table(title="gaps between hand and objects in mm; trials are those that succeed in 2D")
+    for name in ("agent", "trials", "overlapping", "missing", "deepest", "touched p1, 50, 99", "arm least"):
+        table.add_column(name, justify="left" if name == "agent" else "right")
+    for agent in agents:
+        total = tally(find_source(agent, generation=None, rank=0, condition=None), gaps)
+        touched = np.percentile(total.touched, [1, 50, 99]) * 1e3 if total.touched else [np.nan] * 3
+        table.add_row(
+            agent,
+            str(total.successes),
+            str(total.overlapping),
+            str(total.missing),
+            f"{1e3 * min(total.untouched):.1f}",
+            ", ".join(f"{gap:.1f}" for gap in touched),
+            f"{1e3 * min(total.arm):.1f}",
+        )
+    Console().print(table)
+
+
+if __name__ == "__main__":
+    main(tuple(sys.argv[1:]) or AGENTS)

@@ -1,0 +1,43 @@
+"""The planar map: where the hand has to be, and how high."""
+
+import numpy as np
+import pytest
+
+from models.build import build_model
+from mujoco_port.workspace import hand_height, hand_targets, tip_in_plane
+
+
+@pytest.fixture(scope="module")
+def beta():
+    return np.linspace(0.0, 90.0, 901)
+
+
+def test_hand_is_low_while_s2_is_straight_and_lifted_while_it_is_bent(robot):
+    plane = robot.plane
+    first, last = plane.lift_range
+    assert hand_height(plane, 0.0) == hand_height(plane, first) == plane.hand_height
+    assert hand_height(plane, last) == hand_height(plane, 90.0) == plane.hand_height + plane.lift
+
+
+def test_hand_rises_steadily_with_beta(robot, beta):
+    assert (np.diff(hand_height(robot.plane, beta)) >= 0.0).all()
+
+
+def test_hand_rises_without_a_jerk(robot, beta):
+    """The slope of t^2 (3 - 2 t) changes by at most 6 per unit of t."""
+    height, step = hand_height(robot.plane, beta), beta[1] - beta[0]
+    first, last = robot.plane.lift_range
+    steepest_change = 6.0 * robot.plane.lift * (step / (last - first)) ** 2
+    assert np.abs(np.diff(height, 2)).max() <= steepest_change * (1.0 + 1e-9)
+
+
+def test_map_is_a_scale_about_the_first_joint(robot):
+    alpha, beta = np.array([-30.0, 30.0, 210.0]), np.array([0.0, 45.0, 90.0])
+    targets = hand_targets(robot.plane, alpha, beta)
+    np.testing.assert_allclose(targets[:, :2], robot.plane.scale * tip_in_plane(alpha, beta), rtol=1e-15)
+    np.testing.assert_array_equal(targets[:, 2], hand_height(robot.plane, beta))
+
+
+def test_lifted_hand_stands_higher_above_the_table_than_the_objects(robot):
+    top = max(2.0 * build_model(robot).geom(name).size[1] for name in ("blue", "green", "red"))
+    assert robot.plane.hand_height + robot.plane.lift > top
