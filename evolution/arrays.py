@@ -103,16 +103,8 @@ def _header(stream: io.BytesIO) -> tuple[tuple[int, ...], bool, np.dtype]:
         return HEADERS[version](stream)
     except UnreadableError:
         raise
-    # The header is a literal of Python: malformed, it fails in as many ways as a source text can.
-    except (
-        ValueError,
-        TypeError,
-        SyntaxError,
-        RecursionError,
-        MemoryError,
-        OverflowError,
-        KeyError,
-    ) as error:
+    # NumPy reads the header as a literal of Python: malformed, it fails in as many ways as a source text can.
+    except Exception as error:
         raise UnreadableError(f"it does not begin as an .npy does: {error}") from None
 
 

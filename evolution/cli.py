@@ -96,7 +96,14 @@ def answer(run: Callable[[], int]) -> int:
 
 
 def parse(arguments: Sequence[str]) -> Command:
-    """The command that the arguments ask for; the option parser exits with code 2 where it finds none."""
+    """The command that the arguments ask for; the option parser exits with code 2 where it finds none.
+
+    Raises:
+        ValueError: If an argument holds a control character, which the parser would pass on to the terminal.
+    """
+    for number, argument in enumerate(arguments, 1):
+        if any(each < " " or each == "\x7f" for each in argument):
+            raise ValueError(f"argument {number} is {argument!r}; leave out what cannot be printed")
     command = _parse(arguments, UncheckedReadings())
     if isinstance(command, Evolve | Reproduce) and command.preset != "default":
         # Now that the preset is known, its readings become the defaults of those that were not set.

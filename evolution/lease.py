@@ -153,7 +153,7 @@ def _read(path: Path) -> tuple[Holder | None, float]:
             touched = os.fstat(file.fileno()).st_mtime
             try:
                 return Holder(**json.load(file)), touched
-            except (ValueError, TypeError):
+            except (ValueError, TypeError, RecursionError):
                 return None, touched
     except FileNotFoundError:
         return None, float("-inf")

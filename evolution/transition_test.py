@@ -26,6 +26,7 @@ from evolution.transitions import action_transitions, object_transitions, transi
 
 FOLDER: Final = "transitions"
 CLASSES: Final = tuple(AgentClass)
+NAMES: Final = ("generations", "ranks", "classes", "action", "object")
 
 
 @dataclass(frozen=True)
@@ -49,8 +50,7 @@ class TransitionTest:
     @classmethod
     def join(cls, parts: list[TransitionTest]) -> TransitionTest:
         """Several tests as one."""
-        names = ("generations", "ranks", "classes", "action", "object")
-        return cls(*(np.concatenate([getattr(each, name) for each in parts]) for name in names))
+        return cls(*(np.concatenate([getattr(each, name) for each in parts]) for name in NAMES))
 
 
 def run_transition_test(
@@ -138,4 +138,4 @@ def read_part(folder: RunFolder, span: range) -> TransitionTest:
         check_range(path, arrays, "classes", 0, len(CLASSES) - 1)
         for name in ("action", "object"):
             check_range(path, arrays, name, 0, TRIALS)
-    return TransitionTest(**arrays)  # type: ignore[arg-type] - checked above
+    return TransitionTest(*(arrays[name] for name in NAMES))

@@ -4,6 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import settings
+
+# The same examples every time, and no deadline: a busy machine is no fault.
+settings.register_profile("wordarm", derandomize=True, deadline=None)
+settings.load_profile("wordarm")
 
 
 @pytest.fixture(scope="session")

@@ -1,6 +1,9 @@
 """docs/ledger.md against arm2d.Readings: it cannot drift."""
 
+import json
 import re
+import subprocess
+import sys
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -54,3 +57,15 @@ def test_every_row_gives_words_of_the_article_and_a_reason():
         cells = [cell.strip() for cell in row.strip("|").split("|")]
         assert len(cells) == 4
         assert all(cells), row
+
+
+def test_every_listed_alternative_is_in_the_golden_record():
+    code = "import json, golden; print(json.dumps(golden.ALTERNATIVES))"
+    place = Path(__file__).parent / "evolution"
+    done = subprocess.run([sys.executable, "-c", code], cwd=place, capture_output=True, text=True, check=True)
+    recorded = json.loads(done.stdout)
+    for name, values in ROWS.items():
+        texts = re.findall(r"`([^`]+)`", values)
+        numbers = [[float(part) for part in text.split(",")] for text in texts if name not in choices()]
+        listed = texts if name in choices() else [each if len(each) > 1 else each[0] for each in numbers]
+        assert recorded[name] == listed, name

@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
@@ -16,15 +17,17 @@ from evolution.torture.victims import holder_of, kill, members, names, session_o
 from evolution.torture.watch import OpenedFiles
 
 LOG: Final = "torture.log"
-# So often it is considered to kill somebody at a moment that has nothing to do with writing [s] ...
-LOOK_INTERVAL: Final = 0.1
-# ... and about once in so long somebody is [s].
-BETWEEN_OTHER_KILLS: Final = 10.0
+# After so many starts of the parent somebody is also killed at a moment that has nothing to do with writing,
+# within so long [s]; not oftener, or a slow machine would never get on.
+STARTS_WITH_ANOTHER_KILL: Final = 1 / 3
+OTHER_KILL_WITHIN: Final = 20.0
+WAIT: Final = 0.05  # [s]
 # Of the kills at a write, so many hit the parent of all workers instead of the writer.
 PARENT_SHARE: Final = 0.2
 # A kill is sent so long after a file was opened, at most [s]: before its first byte, or when it is whole.
 LONGEST_DELAY: Final = 0.001
 BAD_INPUT: Final = 2
+TOLD_EVERY: Final = 10  # kills
 
 
 class TortureError(ValueError):
@@ -42,6 +45,7 @@ class Ordeal:
         schedule: When to kill.
         tally: Is added to.
         kills: Stop killing when the tally has so many.
+        tell: Is told how it gets on.
         parents: The parents so far, each the leader of a session with its workers; the last is at work.
         counted: Unfinished files that earlier kills left, with the time they were last written.
     """
@@ -52,6 +56,7 @@ class Ordeal:
     schedule: Schedule
     tally: Tally
     kills: int
+    tell: Callable[[str], None] = lambda line: None
     parents: list[int] = field(default_factory=list)
     counted: set[tuple[Path, int]] = field(default_factory=set)
 
@@ -86,6 +91,8 @@ def run_to_its_end(ordeal: Ordeal) -> None:
         before = ordeal.tally.kills
         with OpenedFiles(folders) as opened:
             code = _one_parent(ordeal, opened)
+        if ordeal.tally.kills // TOLD_EVERY > before // TOLD_EVERY:
+            ordeal.tell(f"{ordeal.tally.kills} kills, {ordeal.tally.writes.total()} in the middle of a write")
         if code == 0:
             return
         if code == BAD_INPUT:
@@ -112,14 +119,16 @@ def _one_parent(ordeal: Ordeal, opened: OpenedFiles) -> int:
             stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
         )  # fmt: skip
     ordeal.parents.append(parent.pid)
-    looked_at = time.monotonic()
+    rng = ordeal.schedule.draw(ordeal.folder / "start")
+    is_due = rng.random() < STARTS_WITH_ANOTHER_KILL
+    due = time.monotonic() + rng.uniform(0.0, OTHER_KILL_WITHIN)
     while parent.poll() is None:
-        for each in opened.wait(LOOK_INTERVAL / 2):
+        for each in opened.wait(WAIT):
             if is_temporary(each):
                 _perhaps_kill_at_a_write(ordeal, each)
-        if time.monotonic() - looked_at >= LOOK_INTERVAL:
-            looked_at = time.monotonic()
-            _perhaps_kill_at_any_moment(ordeal)
+        if is_due and time.monotonic() >= due and not ordeal.over:
+            is_due = False
+            _kill(ordeal, rng.choice(members(parent.pid) or [0]))
     return parent.returncode
 
 
@@ -130,13 +139,6 @@ def _perhaps_kill_at_a_write(ordeal: Ordeal, file: Path) -> None:
         victim = ordeal.parents[-1] if rng.random() < PARENT_SHARE else ordeal.writer(file)
         time.sleep(rng.uniform(0.0, LONGEST_DELAY))
         _kill(ordeal, victim)
-
-
-def _perhaps_kill_at_any_moment(ordeal: Ordeal) -> None:
-    """Kill anybody: parent, worker, or the process that starts workers."""
-    rng = ordeal.schedule.draw(ordeal.folder / "any moment")
-    if not ordeal.over and rng.random() < LOOK_INTERVAL / BETWEEN_OTHER_KILLS:
-        _kill(ordeal, rng.choice(members(ordeal.parents[-1]) or [0]))
 
 
 def _kill(ordeal: Ordeal, victim: int) -> None:

@@ -75,7 +75,7 @@ def torture(what: Torture, tell: Tell, undisturbed: Path | None = None) -> Tally
     if undisturbed is None:
         undisturbed = _make_undisturbed(what, tell)
     while tally.kills < what.kills:
-        _one_round(what, undisturbed, tally)
+        _one_round(what, undisturbed, tally, tell)
         tell(f"{tally.kills} kills so far; experiment {tally.rounds} has the bits of the undisturbed one")
     return tally
 
@@ -98,7 +98,7 @@ def _make_undisturbed(what: Torture, tell: Tell) -> Path:
     return path
 
 
-def _one_round(what: Torture, undisturbed: Path, tally: Tally) -> None:
+def _one_round(what: Torture, undisturbed: Path, tally: Tally, tell: Tell) -> None:
     """One experiment: refused, killed, finished, damaged, repaired, compared."""
     plan, rng = what.plan(f"tortured-{tally.rounds + 1}"), random.Random(f"{what.seed} {tally.rounds}")  # noqa: S311
     shutil.rmtree(plan.folder, ignore_errors=True)
@@ -107,7 +107,7 @@ def _one_round(what: Torture, undisturbed: Path, tally: Tally) -> None:
     refuse_where_files_cannot_grow(evolve, runs[0], tally)
     refuse_where_nothing_can_be_written(evolve, runs[0], tally)
     command, schedule = _command(what, plan.folder), Schedule(what.seed, tally.rounds)
-    run_to_its_end(Ordeal(plan.folder, runs, command, schedule, tally, what.kills))
+    run_to_its_end(Ordeal(plan.folder, runs, command, schedule, tally, what.kills, tell))
     for each in runs:
         damage_and_repair(each, rng, tally)
     _compare(results_of(undisturbed), results_of(plan.folder), plan.folder)

@@ -22,7 +22,7 @@ SHARES: Final = {
     "solved trials": 0.7,
     "lineage": 0.15,
     "behaviour": 0.07,
-    "results": 0.05,
+    "results": 0.02,
     "report": 0.5,
     "other file": 0.0,
 }

@@ -1,0 +1,87 @@
+"""Whatever a file, a table or a text holds: it is understood, or refused by a ValueError."""
+
+import contextlib
+from pathlib import Path
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from arm2d import Instruction, Readings
+from evolution.arrays import UnreadableError, unpack_archive, unpack_array
+from evolution.config import RunConfig
+from evolution.grid import experiment_from_mapping
+from evolution.settings import Settings
+from evolution.toml import DEEPEST, read_toml
+
+KEYS = [
+    "format",
+    "condition",
+    "seed",
+    "settings",
+    "readings",
+    "conditions",
+    "seeds",
+    "output",
+    "variant",
+    "name",
+]
+FIELDS = [*Settings().to_mapping(), *Readings().to_mapping(), *KEYS]
+PLAIN = (
+    st.none() | st.booleans() | st.integers() | st.integers(-(10**400), 10**400) | st.floats() | st.text()
+    | st.sampled_from(["with-indicate", "1-8", "raw", "../x"])
+)  # fmt: skip
+VALUES = st.recursive(
+    PLAIN,
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.sampled_from(FIELDS), inner, max_size=4),
+)
+TABLES = st.dictionaries(st.sampled_from(FIELDS), VALUES, max_size=5)
+SOUND = {"format": 1, "condition": "with-indicate", "seed": 1}
+
+
+@given(TABLES, st.sampled_from([{}, SOUND]))
+def test_a_config_of_any_values_is_a_run_or_refused(values, sound):
+    with contextlib.suppress(ValueError):
+        config = RunConfig.from_mapping({**values, **sound})
+        assert RunConfig.from_toml(config.to_toml()) == config
+
+
+@given(TABLES)
+def test_an_experiment_of_any_values_is_a_plan_below_its_folder_or_refused(values):
+    with contextlib.suppress(ValueError):
+        folder = experiment_from_mapping(values, Path("runs") / "x").plan().folder
+        assert not folder.is_absolute()
+        assert ".." not in folder.parts
+
+
+@given(st.text() | st.text("[]{}=.,'\"\n a1", max_size=300))
+def test_any_text_is_toml_of_bounded_depth_or_refused(text):
+    with contextlib.suppress(ValueError):
+        assert depth(read_toml(text)) <= DEEPEST
+
+
+@given(
+    st.integers(1, 30_000),
+    st.sampled_from(["a = " + "[" * 30_000, "a = " + "{b=" * 9_000, "a" + ".b" * 15_000]),
+)
+def test_depth_is_refused_however_it_is_written(length, text):
+    with contextlib.suppress(ValueError):
+        assert depth(read_toml(text[:length])) <= DEEPEST
+
+
+@given(st.binary(max_size=400) | st.binary(max_size=200).map(lambda data: b"\x93NUMPY\x01\x00" + data))
+def test_any_bytes_are_an_array_or_refused(data):
+    for unpack in (unpack_array, unpack_archive):
+        with contextlib.suppress(UnreadableError):
+            unpack(data)
+
+
+@given(st.text() | st.lists(st.sampled_from(["touch", "MOVE", "green", "red", " ", "\u017f"])).map("".join))
+def test_any_text_is_an_instruction_or_refused(text):
+    with contextlib.suppress(ValueError):
+        assert Instruction.parse(str(Instruction.parse(text))) == Instruction.parse(text)
+
+
+def depth(value):
+    if isinstance(value, dict):
+        return 1 + max(map(depth, value.values()), default=0)
+    return 1 + max(map(depth, value), default=0) if isinstance(value, list) else 0
