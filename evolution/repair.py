@@ -7,7 +7,7 @@ from pathlib import Path
 
 from evolution import postevaluation, solving, transition_test
 from evolution.champion import keep_champions
-from evolution.checkpoint import load_checkpoint
+from evolution.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
 from evolution.folder import CHAMPIONS, RunFolder
 from evolution.history import HistoryBuilder
 from evolution.lock import locked
@@ -38,14 +38,18 @@ def repair(path: Path, on_note: Tell = lambda note: None) -> int:
     """
     folder = RunFolder.open(path)
     with locked(path):
-        n_repaired = _repair_parts(folder, on_note) + _repair_checkpoint(folder, on_note)
+        n_repaired, population = _repair_parts(folder, on_note)
+        n_repaired += _repair_checkpoint(folder, population, on_note)
         if len(folder.finished_spans()) == len(folder.spans):
             n_repaired += _repair_champions(folder, on_note) + _repair_tests(folder, on_note)
         return n_repaired
 
 
-def _repair_parts(folder: RunFolder, on_note: Tell) -> int:
-    """Walk through all parts up to the last one there is; compute those anew that cannot be read."""
+def _repair_parts(folder: RunFolder, on_note: Tell) -> tuple[int, Population]:
+    """Walk through all parts up to the last one there is, computing anew those that cannot be read.
+
+    How many these were, and the population after them.
+    """
     present = [span for span in folder.spans if folder.part_path(span).exists()]
     population, n_repaired = first_population(folder.config), 0
     for span in folder.spans[: folder.spans.index(present[-1]) + 1] if present else []:
@@ -56,7 +60,7 @@ def _repair_parts(folder: RunFolder, on_note: Tell) -> int:
             n_repaired += 1
         else:
             population = replay(population, folder.read_part(span), folder.config)
-    return n_repaired
+    return n_repaired, population
 
 
 def _score_part(folder: RunFolder, span: range, population: Population) -> Population:
@@ -70,13 +74,17 @@ def _score_part(folder: RunFolder, span: range, population: Population) -> Popul
     return population
 
 
-def _repair_checkpoint(folder: RunFolder, on_note: Tell) -> int:
-    """Drop a damaged checkpoint, which the parts replace."""
+def _repair_checkpoint(folder: RunFolder, population: Population, on_note: Tell) -> int:
+    """Put a damaged checkpoint back to the end of the parts; of a finished run, it has the bits it had."""
     try:
         load_checkpoint(folder)
     except DamagedFileError as error:
-        error.path.unlink()
-        on_note(f"{error.path.name}: {error.found}; removed it, for the run can go on from its parts")
+        nothing = HistoryBuilder(folder.config.settings.population).build()
+        save_checkpoint(folder, Checkpoint(population, nothing))
+        generation = population.generation
+        on_note(
+            f"{error.path.name}: {error.found}; wrote that of the end of the parts, generation {generation}"
+        )
         return 1
     return 0
 

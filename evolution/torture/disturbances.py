@@ -71,11 +71,10 @@ REPAIRED: Final = ("parts", "postevaluation", "transitions")
 
 
 def _check_repaired(run: RunFolder, file: Path, data: bytes, notes: list[str]) -> None:
-    """A damaged file must have been named, and have the bits it had; a checkpoint may be gone."""
+    """A damaged file must have been named, and have the bits it had."""
     if not any(file.name in each for each in notes):
         raise TortureError(f"{file} was damaged, and nobody named it: {'; '.join(notes)}")
-    gone = file.name == CHECKPOINT and not file.exists()
-    if not gone and file.read_bytes() != data:
+    if file.read_bytes() != data:
         raise TortureError(f"{file} was damaged, and was repaired with other bits in {run.path}")
 
 

@@ -164,3 +164,19 @@ def test_a_lost_config_comes_back_with_the_command_that_started_the_run(finished
     remove(run_copy / "config.toml")
     assert evolve(run_copy, SMALL) == 230
     assert contents(run_copy) == contents(finished_run)
+
+
+@pytest.mark.parametrize("damage", [truncate, flip, empty])
+def test_a_repaired_checkpoint_is_that_of_the_end_of_the_parts(finished_run, run_copy, damage):
+    damage(run_copy / "checkpoint.npz")
+    assert repair(run_copy) == 1
+    assert contents(run_copy) == contents(finished_run)
+    for name in (LAST, SECOND):
+        remove(run_copy / "parts" / name)
+    damage(run_copy / "checkpoint.npz")
+    notes = []
+    assert repair(run_copy, notes.append) == 1
+    assert notes[0].endswith("wrote that of the end of the parts, generation 100")
+    remove(run_copy / "champions.npz")
+    assert evolve(run_copy, SMALL) == 230
+    assert contents(run_copy) == contents(finished_run)
