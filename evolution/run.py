@@ -76,6 +76,8 @@ def evolve(path: Path, config: RunConfig, watcher: Watcher | None = None) -> int
         reached = resume(folder, watcher)
         if reached.population.generation < config.settings.generations:
             reached = _score_generations(folder, reached, watcher)
+        else:
+            _keep_last_checkpoint(folder, reached)
         if reached.population.generation == config.settings.generations and not (path / CHAMPIONS).exists():
             keep_champions(folder)
     return reached.population.generation
@@ -106,6 +108,13 @@ def _sound_checkpoint(folder: RunFolder, watcher: Watcher) -> Checkpoint | None:
     except DamagedFileError as error:
         watcher.on_note(f"{error.path} is damaged ({error.found}); going on from the parts instead")
         return None
+
+
+def _keep_last_checkpoint(folder: RunFolder, reached: Checkpoint) -> None:
+    """Write the checkpoint of a finished run, if a kill came between its last part and that."""
+    kept = _sound_checkpoint(folder, Watcher())
+    if kept is None or kept.population.generation != reached.population.generation:
+        save_checkpoint(folder, reached)
 
 
 def _score_generations(folder: RunFolder, start: Checkpoint, watcher: Watcher) -> Checkpoint:

@@ -112,6 +112,14 @@ def test_a_run_killed_between_part_and_checkpoint_goes_on(finished_run, tmp_path
     assert contents(tmp_path / "run") == contents(finished_run)
 
 
+def test_a_run_killed_between_its_last_part_and_checkpoint_ends_like_any_other(finished_run, tmp_path):
+    stop_at_150(tmp_path / "run")
+    for name in (SECOND, LAST):
+        shutil.copy(finished_run / "parts" / name, tmp_path / "run" / "parts")
+    assert evolve(tmp_path / "run", SMALL) == 230
+    assert contents(tmp_path / "run") == contents(finished_run)
+
+
 def test_a_part_of_another_run_is_not_taken_for_one_of_this(run_copy, tmp_path):
     other = tmp_path / "other"
     shutil.copytree(run_copy, other)
