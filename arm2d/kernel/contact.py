@@ -4,6 +4,7 @@ A disc is followed in S1's frame (x along S1, J1 at the origin), in which S2 tur
 """
 
 from math import sqrt
+from typing import Final
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from arm2d.constants import (
     S1_LENGTH,
     S2_LENGTH,
     SUB_STEPS,
+    TOUCH_TOLERANCE,
 )
 from arm2d.kernel.lanes import (
     ALPHA,
@@ -39,6 +41,9 @@ from arm2d.kernel.lanes import (
     TURN,
 )
 from arm2d.kernel.world import beta_key
+
+# In radians, and 0.3 % more.
+LITTLE_MORE_THAN_A_DEGREE: Final = 0.0175
 
 
 def _largest_beta_that_reaches(distance: float) -> float:
@@ -91,7 +96,10 @@ def _resolve(s, n, i, at, world, beta_sines):
     side, moved = n[SIDE + at], False
     u0, v0 = _to_s2(x, y, sin_beta, cos_beta)
     beyond = _beyond(u0)
-    if side == NONE and beyond * beyond + v0 * v0 > world.safe_gap_squared:
+    # No gap shrinks by more than the arcs that the disc and S2's points run through in S1's frame.
+    motion = s[DISTANCE + at] * abs(s[TURN + i]) + S2_LENGTH * abs(s[BEND + i])
+    reach = world.radius + 2.0 * TOUCH_TOLERANCE + LITTLE_MORE_THAN_A_DEGREE * motion
+    if side == NONE and beyond * beyond + v0 * v0 > reach * reach:
         return
     # In S1's frame a resting disc turns the other way.
     sine, cosine = _sub_step(-s[TURN + i], world)

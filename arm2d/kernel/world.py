@@ -45,7 +45,6 @@ class World(NamedTuple):
         quarter_cosine: cosine of a sub-step of a full turn.
         hit_gap_squared: A disc whose gap squared is below this is hit [cm^2].
         touch_gap_squared: One whose gap squared is at most this, and not hit, is touched.
-        safe_gap_squared: One whose gap squared is above this cannot be met within a step.
         side_reach: How far to S1's right, or beyond S2's tip to its left, a disc's centre may be and
             still meet S2 in one step [deg].
     """
@@ -67,7 +66,6 @@ class World(NamedTuple):
     quarter_cosine: float
     hit_gap_squared: float
     touch_gap_squared: float
-    safe_gap_squared: float
     side_reach: float
 
 
@@ -77,12 +75,11 @@ def world_of(readings: Readings) -> World:
     near = readings.bound_vision == "near"
     sine, cosine = sin_cos(readings.turn_size / c.SUB_STEPS)
     radius = readings.object_radius
-    # No point of S2 is farther from J1 than its tip, none of a disc it meets farther than this.
-    farthest = c.S1_LENGTH + c.S2_LENGTH + 2.0 * radius
-    motion = np.radians(readings.turn_size) * (farthest + c.S2_LENGTH)
-    closest_centre = c.S1_LENGTH - readings.object_radius
-    # asin(rho / distance) <= 1.6 rho / distance for these ratios; one step's turns of both joints besides.
-    side_reach = np.degrees(1.6 * readings.object_radius / closest_centre) + 3.0 * readings.turn_size
+    # S2 is nowhere nearer to J1 than J2 is.
+    closest_centre = c.S1_LENGTH - radius
+    # A disc covers its bearing +- asin(rho / distance), at most 1.1 rho / distance here; one turn of S1
+    # and, since S2's tip goes to the left by at most a third of its own, a third of a turn besides.
+    side_reach = np.degrees(1.1 * radius / closest_centre) + 1.4 * readings.turn_size
     return World(
         turn=readings.turn_size,
         radius=readings.object_radius,
@@ -101,7 +98,6 @@ def world_of(readings: Readings) -> World:
         quarter_cosine=cosine,
         hit_gap_squared=(radius - c.PENETRATION_TOLERANCE) ** 2,
         touch_gap_squared=(radius + c.TOUCH_TOLERANCE) ** 2,
-        safe_gap_squared=float(radius + motion) ** 2,
         side_reach=float(side_reach),
     )
 
