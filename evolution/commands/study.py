@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from tyro.conf import Positional
 
-from evolution.settings import Settings
-
 if TYPE_CHECKING:
+    from arm2d import Readings
     from evolution.interrupt import StopRequest
     from evolution.jobs import Failure
     from evolution.plan import Plan
@@ -30,9 +29,9 @@ class StudyCommand:
     name: Positional[Literal["readings"]]
     """The study: readings, what the paper leaves open (docs/readings.md)."""
 
-    part: str = "screening"
+    part: Literal["screening", "finalists"] = "screening"
     """screening (3000 generations, one reading at a time and the geometry in depth) or finalists (the whole
-    experiment under the nearest)."""
+    experiment under the three that came nearest to the paper in the screening)."""
 
     output: Path = Path("runs/readings")
     """Folder of the study; each part has a folder in it."""
@@ -59,7 +58,8 @@ class StudyCommand:
         from evolution.plan_runner import processes
         from evolution.storage import make_folder
 
-        part, plan, at_once = self._part(), self._plan(), processes(self.jobs)
+        part, at_once = self._part(), processes(self.jobs)
+        plan = _plan(part, self.output)
         failures = ()
         if not self.now:
             plan.check()
@@ -76,22 +76,32 @@ class StudyCommand:
 
     def _part(self) -> Part:
         """The part that is asked for, with the numbers of seeds and generations that are."""
-        from evolution.study.variants import PARTS
+        from evolution.study.variants import finalists, screening
 
-        if self.part not in PARTS:
-            raise ValueError(f"unknown part {self.part!r} of the study; there are {', '.join(PARTS)}")
-        part = PARTS[self.part]
+        part = screening() if self.part == "screening" else finalists(self._nearest())
         seeds = part.seeds if self.seeds is None else self.seeds
         if seeds < 1:
             raise ValueError(f"asked for {seeds} seeds; there must be at least 1")
-        return replace(part, seeds=seeds, generations=self.generations or part.generations)
+        generations = part.generations if self.generations is None else self.generations
+        return replace(part, seeds=seeds, generations=generations)
 
-    def _plan(self) -> Plan:
-        from evolution.plan import Plan
+    def _nearest(self) -> list[Readings]:
+        """The readings that came nearest to the paper in the screening, as it stands in the same folder."""
+        from evolution.plan_file import read_plan
+        from evolution.study.results import measured_variants
+        from evolution.study.table import nearest
 
-        part = self._part()
-        configs = part.configs(Settings(generations=part.generations))
-        return Plan(self.output / part.name, tuple(configs), post_evaluate=False)
+        folder = self.output / "screening"
+        plan = read_plan(folder)
+        if plan is None or not (variants := measured_variants(plan)):
+            raise ValueError(f"no screening is measured in {folder}; begin with: wordarm study readings")
+        return [each.runs[0].config.readings for each in nearest(variants)]
+
+
+def _plan(part: Part, folder: Path) -> Plan:
+    from evolution.plan import Plan
+
+    return Plan(folder / part.name, tuple(part.configs()), post_evaluate=False)
 
 
 def _evolve_and_measure(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Instruction
+from evolution import published
 from evolution.randomness import Purpose, generator
-from evolution.statistics import mean_interval
+from evolution.statistics import mean_interval, midranks
 from evolution.study.measures import RunMeasures
 from evolution.subtasks import SUBTASKS, AgentClass
 
@@ -84,6 +85,22 @@ def group(measured: Iterable[tuple[str, RunMeasures]]) -> list[VariantMeasures]:
         VariantMeasures(*key, tuple(sorted(runs, key=lambda run: run.config.seed)))
         for key, runs in groups.items()
     ]
+
+
+def nearest(variants: Sequence[VariantMeasures], n: int = 3) -> list[VariantMeasures]:
+    """The n variants that come nearest to the paper, the nearest first.
+
+    Each is ranked by how far its mean plateau is from the published one, and by how far its mean share of
+    agents in category 10 of sub-task I is from Table II's; the sum of both ranks decides.
+    """
+    plateau_gaps = np.array([abs(each.plateaus.mean() - published.LARGEST_FITNESS) for each in variants])
+    share_gaps = np.array([abs(each.top_shares[:, 0].mean() - _published_share(each)) for each in variants])
+    order = np.argsort(midranks(plateau_gaps) + midranks(share_gaps), kind="stable")
+    return [variants[i] for i in order[:n]]
+
+
+def _published_share(variant: VariantMeasures) -> float:
+    return published.TABLE_II[variant.condition][-1, 0] / published.AGENTS
 
 
 def interval(values: NDArray[np.float64]) -> tuple[float, float]:

@@ -5,7 +5,7 @@ A reading is compared by its effect on the published figures, never by taste (sp
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -14,7 +14,6 @@ from evolution.config import RunConfig
 from evolution.settings import Settings
 
 Overrides = Mapping[str, Any]
-INDICATE: Final = (Condition.WITH_INDICATE,)
 
 # One reading at a time, in the order of the ledger. The sectors at 45, 90 and 135 degrees need narrow ones.
 FACTORS: Final[tuple[Overrides, ...]] = (
@@ -45,59 +44,60 @@ FACTORS: Final[tuple[Overrides, ...]] = (
 )
 
 
-# The geometry in depth: what Fig. 1b would show, varied together (docs/readings.md says why these).
-GEOMETRY: Final[tuple[Overrides, ...]] = ()
-
-# The readings that come nearest to the published figures in the screening.
-NEAREST: Final[tuple[Overrides, ...]] = ()
+# The geometry in depth, most of it with the smaller mutation: narrow sectors, the other centres, blind starts
+# at the bounds that see white early, wide start areas where narrow sectors leave room for them, small objects in
+# narrow sectors, large objects that are seen by any part.
+GEOMETRY: Final[tuple[Overrides, ...]] = (
+    {"sector_half_width": 3.0},
+    {"sector_half_width": 3.0, "mutation_sd": 0.03},
+    {"sector_half_width": 5.0, "mutation_sd": 0.03},
+    {"sector_half_width": 8.0, "mutation_sd": 0.03},
+    {"sector_centres": (45.0, 90.0, 135.0), "sector_half_width": 3.0, "mutation_sd": 0.03},
+    {"sector_centres": (45.0, 90.0, 135.0), "sector_half_width": 3.0, "start_areas": "bounds"},
+    {"start_areas": "bounds", "mutation_sd": 0.03},
+    {"start_areas": "bounds", "bound_vision": "near"},
+    {"start_half_width": 8.0, "sector_half_width": 5.0},
+    {"object_radius": 3.0, "sector_half_width": 5.0},
+    {"object_radius": 10.0, "object_vision": "any_part"},
+)
 
 
 @dataclass(frozen=True)
 class Part:
-    """A part of the study: variants, and how long and how often each is evolved.
+    """A part of the study: worlds, and how long and how often each is evolved.
 
     Attributes:
         name: On the command line.
-        purpose: What it asks, in one sentence.
-        variants: Readings that differ from the default; the default itself is always among them.
+        worlds: The default and those it is compared with.
         conditions: In which each is evolved.
         seeds: Runs of each variant and condition, seeds from 1 on.
         generations: Of each run.
     """
 
     name: str
-    purpose: str
-    variants: tuple[Overrides, ...]
-    conditions: tuple[Condition, ...] = INDICATE
+    worlds: tuple[Readings, ...]
+    conditions: tuple[Condition, ...] = (Condition.WITH_INDICATE,)
     seeds: int = 8
     generations: int = 3000
 
-    def configs(self, settings: Settings) -> list[RunConfig]:
+    def configs(self) -> list[RunConfig]:
         """Every run of this part, seed by seed, so that all variants are known early if not well."""
-        worlds = [Readings(), *(Readings().with_values(each) for each in self.variants)]
+        settings = Settings(generations=self.generations)
         return [
             RunConfig(condition, seed, settings, world)
             for seed in range(1, self.seeds + 1)
-            for world in worlds
+            for world in self.worlds
             for condition in self.conditions
         ]
 
 
-PARTS: Final = {
-    part.name: part
-    for part in (
-        Part(
-            "screening",
-            "Every alternative of the ledger, one at a time, and the geometry in depth.",
-            (*FACTORS, *GEOMETRY),
-        ),
-        Part(
-            "finalists",
-            "The whole experiment under the readings that come nearest to the paper.",
-            NEAREST,
-            tuple(Condition),
-            seeds=10,
-            generations=6000,
-        ),
-    )
-}
+def screening() -> Part:
+    """Every alternative of the ledger, one at a time, and the geometry in depth."""
+    changed = [Readings().with_values(each) for each in (*FACTORS, *GEOMETRY)]
+    return Part("screening", (Readings(), *changed))
+
+
+def finalists(nearest: Sequence[Readings]) -> Part:
+    """The whole experiment under the readings that came nearest to the paper, and under the default."""
+    others = [each for each in nearest if each != Readings()]
+    return Part("finalists", (Readings(), *others), tuple(Condition), seeds=10, generations=6000)

@@ -9,6 +9,7 @@ import pytest
 
 from arm2d import Condition, Readings
 from arm2d.readings import choices
+from evolution.cli import main
 from evolution.config import RunConfig
 from evolution.folder import RunFolder
 from evolution.postevaluation import post_evaluate
@@ -19,8 +20,9 @@ from evolution.solving import solved_trials
 from evolution.storage import DamagedFileError
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import FILE, measure
-from evolution.study.table import group, run_rows, variant_rows
-from evolution.study.variants import FACTORS, PARTS
+from evolution.study.results import write_study
+from evolution.study.table import group, nearest, run_rows, variant_rows
+from evolution.study.variants import FACTORS, finalists, screening
 
 LEDGER = (Path(__file__).parents[2] / "docs" / "ledger.md").read_text(encoding="utf-8")
 SETTINGS = Settings(population=12, elites=2, parents=6, generations=40)
@@ -59,11 +61,17 @@ def test_every_alternative_of_the_ledger_is_tried():
         assert (name, numbers if name == "sector_centres" else numbers[0]) in tried
 
 
-@pytest.mark.parametrize("part", PARTS.values(), ids=lambda part: part.name)
-def test_variants_are_distinct_worlds_beside_the_default(part):
-    configs = part.configs(Settings(generations=part.generations))
-    assert len(set(configs)) == len(configs) == part.seeds * len(part.conditions) * (1 + len(part.variants))
+@pytest.mark.parametrize("part", [screening(), finalists([Readings(object_radius=8.0), Readings()])])
+def test_variants_are_distinct_worlds_the_default_among_them(part):
+    configs = part.configs()
+    assert len(set(configs)) == len(configs) == part.seeds * len(part.conditions) * len(part.worlds)
     assert sum(each.readings == Readings() for each in configs) == part.seeds * len(part.conditions)
+
+
+def test_nearest_variant_is_the_one_whose_numbers_are_the_published_ones(measured):
+    variants = group(measured[1])
+    plateau = max(variants, key=lambda each: each.plateaus.mean())  # neither reaches the published share
+    assert [each.name for each in nearest(variants, 1)] == [plateau.name]
 
 
 def test_sampled_agents_are_those_of_the_post_evaluation(measured):
@@ -132,8 +140,20 @@ def test_figures_show_every_variant_and_the_published_values(measured):
     effects = effects_figure(variants, "title")
     labels = [label.get_text() for label in effects.axes[0].get_yticklabels()]
     assert labels == ["default  (2)", "object radius 8  (2)"]
-    dashed = [line.get_xdata()[0] for line in effects.axes[2].lines if line.get_linestyle() == "--"]
-    assert dashed == [pytest.approx(60.231)]
+    dashed = [np.asarray(line.get_xdata()) for line in effects.axes[2].lines if line.get_linestyle() == "--"]
+    np.testing.assert_allclose(dashed, [[60.231, 60.231]])
     failures = failures_figure(variants, "title")
     (image,) = failures.axes[0].images
-    np.testing.assert_allclose(image.get_array()[1], 100 * variants[1].success_by_area.ravel())
+    np.testing.assert_allclose(np.asarray(image.get_array())[1], 100 * variants[1].success_by_area.ravel())
+
+
+def test_study_is_written_as_tables_and_pictures(measured, tmp_path):
+    paths = list(write_study(group(measured[1]), screening(), tmp_path))
+    assert sorted(tmp_path.iterdir()) == sorted(paths)
+    assert {each.suffix for each in paths} == {".csv", ".png", ".svg"}
+
+
+def test_finalists_need_a_screening(tmp_path, capsys):
+    assert main(["study", "readings", "--part=finalists", f"--output={tmp_path}"]) == 2
+    assert "no screening is measured" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
