@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from tyro.conf import Positional
+
+PIPE_WIDTH: Final = 120
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -65,7 +67,8 @@ class Classes:
             raise ValueError(f"no run in {self.experiment} can be observed, for the reasons above")
         if self.figures:
             behaviours = behaviours_of(observed)
-            console.print(_table(behaviours))
+            # A pipe has no width: nothing is to be cut there.
+            console.print(_table(behaviours), width=None if console.is_terminal else PIPE_WIDTH)
             for path in write_classes(behaviours, sampling, self.output or self.experiment / "results"):
                 print(path)
         return 0

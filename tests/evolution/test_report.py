@@ -9,6 +9,7 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from arm2d import Condition, Readings, draw_trials, record_trial
 from evolution import published
@@ -256,8 +257,12 @@ def test_a_drawing_is_shortened_where_no_eye_can_tell_and_replaced_where_it_is_h
     shown = b64decode(file_uri(drawing).split(",")[1]).decode()
     assert shown == '<svg><path d="M 1.23 2.3"/><use transform="scale(0.015625)"/></svg>'
     drawing.write_text("<svg>" + " " * 500_000 + "</svg>")
-    drawing.with_suffix(".png").write_bytes(b"pixels")
-    assert file_uri(drawing).startswith("data:image/png")
+    figure = Figure(figsize=(2, 1))
+    figure.add_subplot().plot([0, 1])
+    figure.savefig(drawing.with_suffix(".png"))
+    kind, data = file_uri(drawing).split(",")
+    assert kind == "data:image/png;base64"
+    assert len(b64decode(data)) < drawing.with_suffix(".png").stat().st_size
 
 
 def test_fully_compositional_agents_are_called_so(results):
