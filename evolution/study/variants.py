@@ -45,8 +45,8 @@ FACTORS: Final[tuple[Overrides, ...]] = (
 
 
 # The geometry in depth, most of it with the smaller mutation: narrow sectors, the other centres, blind starts
-# at the bounds that see white early, wide start areas where narrow sectors leave room for them, small objects in
-# narrow sectors, large objects that are seen by any part.
+# at the bounds that see white early, wide start areas where narrow sectors leave room for them, small objects
+# in narrow sectors, large objects that are seen by any part.
 GEOMETRY: Final[tuple[Overrides, ...]] = (
     {"sector_half_width": 3.0},
     {"sector_half_width": 3.0, "mutation_sd": 0.03},
