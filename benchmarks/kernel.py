@@ -4,8 +4,8 @@
 
 Kernel, numpy peers and, where jax is installed, a JAX peer take the same trials in turn, in one process
 bound to one core, so that a busy machine slows all of them alike. CPU time is that of all threads
-together. Medians are printed, and beside them the first call, in which the kernel's machine code is
-loaded (or made, once per machine) and JAX compiles.
+together. Medians are printed, and beside them the first call, in which JAX compiles (the kernel has run
+before: it evolves the second population).
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import platform
+import sys
 import time
 from collections.abc import Callable
 from statistics import median
@@ -93,7 +94,7 @@ def bind_to_one_core() -> None:
 def main() -> None:
     """Print a table."""
     bind_to_one_core()
-    readings, console = Readings(), Console()
+    readings, console = Readings(), Console(width=None if sys.stdout.isatty() else 110)
     table = Table(title=f"one generation on {platform.processor() or platform.machine()}, one core")
     for heading in (
         "population",
