@@ -41,9 +41,7 @@ def thin(
     import fast_simplification
 
     reduction = 1.0 - n_faces / len(faces)
-    few, corners = fast_simplification.simplify(vertices, faces.astype(np.int64), target_reduction=reduction)[
-        :2
-    ]
+    few, corners = fast_simplification.simplify(vertices, faces, target_reduction=reduction)[:2]
     return few.astype(np.float64), corners.astype(np.int32)
 
 
