@@ -110,7 +110,7 @@ def write_mp4(pictures: Iterable[NDArray[np.uint8]], path: Path, per_second: int
     try:
         size = first.shape[1], first.shape[0]
         writer = imageio_ffmpeg.write_frames(
-            str(unfinished), size, fps=per_second, quality=7, output_params=list(PLAYABLE)
+            str(unfinished), size, fps=per_second, quality=7, macro_block_size=2, output_params=list(PLAYABLE)
         )
         writer.send(None)
         try:

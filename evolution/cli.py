@@ -22,6 +22,7 @@ from evolution.commands.doctor import Doctor
 from evolution.commands.evaluate import Evaluate
 from evolution.commands.evolve import Evolve, UncheckedReadings
 from evolution.commands.experiment import ExperimentCommand
+from evolution.commands.gallery import Gallery
 from evolution.commands.lineage import LineageCommand
 from evolution.commands.measure import Measure
 from evolution.commands.plot import Plot
@@ -51,6 +52,7 @@ Command = (
     | Classes
     | Compare
     | Doctor
+    | Gallery
     | LineageCommand
     | Measure
     | Plot
@@ -121,6 +123,7 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
         | Annotated[Doctor, subcommand("doctor")]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[ExperimentCommand, subcommand("experiment")]
+        | Annotated[Gallery, subcommand("gallery")]
         | Annotated[LineageCommand, subcommand("lineage")]
         | Annotated[Measure, subcommand("measure")]
         | Annotated[Plot, subcommand("plot")]

@@ -62,12 +62,14 @@ class Appearance:
         otherwise: Material of all other links.
         swaps: Meshes shown instead of the URDF's.
         ornaments: Shapes to add.
+        detail: How many triangles are kept, as a multiple of what does for meshes of smooth covers.
     """
 
     materials: Mapping[str, str] = field(default_factory=dict)
     otherwise: str = "shell"
     swaps: tuple[MeshSwap, ...] = ()
     ornaments: tuple[Ornament, ...] = ()
+    detail: float = 1.0
 
     def __post_init__(self) -> None:
         """Freeze the mapping."""
@@ -129,6 +131,12 @@ MOUTH = (
 )
 LAMP_RADIUS = 0.0020  # [m]
 
+# Without legs, the robot stands on a column.
+COLUMN = (
+    Ornament("root_link", "cylinder", (0.045,), (0.0, 0.0, -0.02), "leg", to=(0.0, 0.0, -0.88)),
+    Ornament("root_link", "cylinder", (0.16,), (0.0, 0.0, -0.87), "leg", to=(0.0, 0.0, -0.887)),
+)
+
 ICUB_APPEARANCE = Appearance(
     materials={**dict.fromkeys(ICUB_COVERS, "cover"), "head": "shell", "l_hand": "shell", "r_hand": "shell"},
     otherwise="metal",
@@ -143,13 +151,49 @@ ICUB_APPEARANCE = Appearance(
         ),
     ),
     ornaments=(
-        # Without legs, the robot stands on a column.
-        Ornament("root_link", "cylinder", (0.045,), (0.0, 0.0, -0.02), "leg", to=(0.0, 0.0, -0.88)),
-        Ornament("root_link", "cylinder", (0.16,), (0.0, 0.0, -0.87), "leg", to=(0.0, 0.0, -0.887)),
+        *COLUMN,
         *eye("head", (0.034, 0.1043, 0.0505), GAZE),
         *eye("head", (-0.034, 0.1043, 0.0505), GAZE),
         *line("head", MOUTH, LAMP_RADIUS, "lamp"),
         *line("head", BROW, LAMP_RADIUS, "lamp"),
         *line("head", tuple((-x, y, z) for x, y, z in BROW), LAMP_RADIUS, "lamp"),
+    ),
+)
+
+# The hand of this iCub is a block, its mesh the one that is not given with y up as the others are. Fingers
+# are drawn where the other iCub has them: one sees what the hand's point belongs to.
+ERD_HANDS = tuple(
+    MeshSwap(
+        f"{side}_hand",
+        f"{side}_hand",
+        f"example-robot-data/robots/icub_description/meshes/upmc/visual/icub_{side}_hand.dae",
+        (-1.0, -1.0, 1.0) if side == "r" else (1.0, 1.0, 1.0),
+        (0.0, 0.0204334, 0.000144),
+        "shell",
+    )
+    for side in "lr"
+)
+ERD_FINGERS = tuple(
+    Ornament("r_hand_dh_frame", "capsule", (radius,), start, "shell", to=end)
+    for start, end, radius in (
+        ((-0.010, 0.0225, -0.010), (0.078, 0.0225, -0.010), 0.0105),
+        ((-0.010, 0.005, -0.010), (0.085, 0.005, -0.010), 0.0095),
+        ((-0.010, -0.010, -0.010), (0.088, -0.010, -0.010), 0.0095),
+        ((-0.010, -0.024, -0.010), (0.078, -0.024, -0.010), 0.0095),
+        ((-0.020, -0.020, 0.003), (0.010, -0.070, 0.004), 0.0085),
+    )
+)
+
+ICUB_ERD_APPEARANCE = Appearance(
+    materials={**dict.fromkeys(ICUB_COVERS, "cover"), "head": "shell"},
+    otherwise="metal",
+    swaps=ERD_HANDS,
+    detail=8.0,  # screws and all, in many small parts
+    # In this head x is back, y down and z to the right; the mesh has eyeballs, but one material for all.
+    ornaments=(
+        *COLUMN,
+        *ERD_FINGERS,
+        *eye("head", (-0.0435, -0.107, 0.034), (-0.985, 0.17, 0.0)),
+        *eye("head", (-0.0435, -0.107, -0.034), (-0.985, 0.17, 0.0)),
     ),
 )

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.appearance import MeshSwap, Ornament
-from models.meshes import read_mesh, thin
+from models.inertias import fault, moments
+from models.meshes import read_mesh, standing, thin
 from models.robots import Robot
-from models.urdf import find_urdf, read_urdf, share_folder
+from models.urdf import find_urdf, read_spec, share_folder
 
 ROBOT_PREFIX = "robot/"  # of every name that comes from the URDF, so that none meets one of the scene
 HAND_SITE = "robot/hand"  # the point that plays S2's end
@@ -23,6 +24,7 @@ UNCOLOURED = [0.5, 0.5, 0.5, 1.0]  # the one colour that lets a material's own t
 MAX_FACES = 800
 FACES_PER_AREA = 16_000  # [1/m^2], of the box around a mesh: small ones need fewer
 MAX_FACES_SWAPPED = 2800  # of a mesh that was chosen for its looks, such as a face
+GYRATION = 0.03  # [m], radius of gyration of a link whose inertia is unsound
 
 SHAPES = {
     "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
@@ -60,12 +62,13 @@ def build_model(robot: Robot) -> mujoco.MjModel:
 
 def robot_spec(robot: Robot) -> mujoco.MjSpec:
     """Read a robot's URDF: acting joints only, and the hand's reference point as a site."""
-    spec = mujoco.MjSpec.from_string(read_urdf(robot))
-    spec.compiler.fusestatic = False  # a fused link would lose its name
+    spec = read_spec(robot)
+    mend_inertias(spec)
+    keep_what_is_shown(spec)
     spec.body(robot.hand_frame).add_site(name="hand", pos=list(robot.hand_offset), size=[0.005] * 3, group=5)
     for link in robot.left_out:
         spec.delete(spec.body(link))
-    thin_meshes(spec)
+    thin_meshes(spec, robot.appearance.detail)
     acting = set(robot.joints)
     for joint in list(spec.joints):
         if joint.name not in acting:
@@ -73,7 +76,27 @@ def robot_spec(robot: Robot) -> mujoco.MjSpec:
     return spec
 
 
-def thin_meshes(spec: mujoco.MjSpec) -> None:
+def mend_inertias(spec: mujoco.MjSpec) -> None:
+    """Give links with an inertia no body can have that of a ball, so that MuJoCo takes the robot at all.
+
+    That serves kinematics, which knows no inertia; `models.physics` refuses such a robot.
+    """
+    for body in spec.bodies:
+        if body.explicitinertial and fault(body.mass, moments(body)):
+            body.fullinertia = [np.nan, 0.0, 0.0, 0.0, 0.0, 0.0]
+            body.inertia = [body.mass * GYRATION**2] * 3
+
+
+def keep_what_is_shown(spec: mujoco.MjSpec) -> None:
+    """Delete the shapes that a URDF has for contact from links that have others to be seen."""
+    for body in spec.bodies:
+        seen = [geom for geom in body.geoms if geom.contype == 0]
+        for geom in list(body.geoms) if seen else ():
+            if geom.contype:
+                spec.delete(geom)
+
+
+def thin_meshes(spec: mujoco.MjSpec, detail: float) -> None:
     """Replace each mesh's file by what it holds, in few triangles; delete the meshes that nothing shows."""
     shown = {geom.meshname for geom in spec.geoms}
     for mesh in list(spec.meshes):
@@ -81,16 +104,17 @@ def thin_meshes(spec: mujoco.MjSpec) -> None:
             spec.delete(mesh)
             continue
         vertices, faces = read_mesh(Path(mesh.file))
-        vertices, faces = thin(vertices, faces, faces_needed(vertices * mesh.scale))
+        vertices = standing(Path(mesh.file), vertices)
+        vertices, faces = thin(vertices, faces, faces_needed(vertices * mesh.scale, detail))
         mesh.file = ""
         mesh.uservert, mesh.userface = vertices.ravel(), faces.ravel()
         mesh.inertia = SHELL_INERTIA
 
 
-def faces_needed(vertices: NDArray[np.float64]) -> int:
+def faces_needed(vertices: NDArray[np.float64], detail: float) -> int:
     """Triangles that show a mesh of vertices [V, 3] in [m] well enough."""
     x, y, z = np.ptp(vertices, axis=0)
-    return min(MAX_FACES, int(FACES_PER_AREA * 2 * (x * y + y * z + z * x)))
+    return int(detail * min(MAX_FACES, FACES_PER_AREA * 2 * (x * y + y * z + z * x)))
 
 
 def fix_joint(spec: mujoco.MjSpec, joint: mujoco.MjsJoint, angle: float) -> None:

@@ -6,12 +6,15 @@ times over where there are shadows.
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 STL_HEADER_BYTES = 80
+# A part of a DAE file: triangles, or polygons whose numbers of corners follow.
+PART = re.compile(rb'<triangles[^>]* count="(\d+)"|<vcount>([\d\s]*)<')
 STL_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
@@ -22,6 +25,16 @@ def read_mesh(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         ValueError: If an STL file is not binary or is cut short.
     """
     return _read_stl(path) if path.suffix.lower() == ".stl" else _read_other(path)
+
+
+def standing(path: Path, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Turn the vertices [V, 3] of a file that says its y is up so that z is up, as a URDF takes it to be.
+
+    Simulators for ROS read DAE files so, and URDFs were made with them.
+    """
+    if path.suffix.lower() != ".dae" or b"<up_axis>Y_UP" not in path.read_bytes():
+        return vertices
+    return np.stack([vertices[:, 0], -vertices[:, 2], vertices[:, 1]], axis=-1)
 
 
 def thin(
@@ -57,10 +70,31 @@ def _read_stl(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
 
 
 def _read_other(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Read what MuJoCo cannot, such as DAE."""
+    """Read what MuJoCo cannot, such as DAE; equal corners become one vertex."""
     import coal
 
     mesh = coal.MeshLoader().load(str(path), np.ones(3))
     corners = [mesh.tri_indices(i) for i in range(mesh.num_tris)]
-    faces = np.array([[triangle[0], triangle[1], triangle[2]] for triangle in corners], dtype=np.int32)
-    return np.array(mesh.vertices()), faces
+    faces = np.array([[triangle[0], triangle[1], triangle[2]] for triangle in corners])
+    faces = _apart(path, faces, mesh.num_vertices)
+    vertices, merged = np.unique(np.array(mesh.vertices()), axis=0, return_inverse=True)
+    return vertices, merged.ravel()[faces].astype(np.int32)
+
+
+def _apart(path: Path, faces: NDArray[np.int64], n_vertices: int) -> NDArray[np.int64]:
+    """Let the parts of a DAE file, one for each material, index vertices of their own.
+
+    Coal joins the vertices of all parts, but lets the faces of a node's parts all count from the same vertex.
+    """
+    counts = [
+        int(triangles) if triangles else sum(int(corners) - 2 for corners in polygons.split())
+        for triangles, polygons in PART.findall(path.read_bytes())
+    ]
+    if len(counts) < 2 or sum(counts) != len(faces):
+        return faces
+    parts = np.split(faces, np.cumsum(counts)[:-1])
+    sizes = [int(np.ptp(part)) + 1 for part in parts]
+    if sum(sizes) != n_vertices:  # vertices without a face: where a part starts is unknown
+        return faces
+    starts = np.cumsum([0, *sizes[:-1]])
+    return np.concatenate([part - part.min() + start for part, start in zip(parts, starts, strict=True)])

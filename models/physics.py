@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 
 from models.build import ROBOT_PREFIX, build_spec
+from models.inertias import unsound_inertias
 from models.limits import MotorLimits
 from models.robots import Robot
 from models.shapes import ContactShape
@@ -38,6 +39,7 @@ def build_physics_model(robot: Robot) -> mujoco.MjModel:
         NoPhysicsError: If nothing is known of the robot's motors, or of the shape of its hand.
         RobotNotInstalledError: If the robot's package is missing.
     """
+    refuse_unsound(robot)
     if robot.limits is None or not robot.shapes:
         missing = "motor limits" if robot.limits is None else "contact shapes"
         raise NoPhysicsError(
@@ -54,6 +56,19 @@ def build_physics_model(robot: Robot) -> mujoco.MjModel:
         spec.geom(name).conaffinity = OBJECT_BIT | ROBOT_BIT
     add_motors(spec, robot, robot.limits)
     return spec.compile()
+
+
+def refuse_unsound(robot: Robot) -> None:
+    """Check that every link has an inertia that a body can have.
+
+    Raises:
+        NoPhysicsError: If some have not; it names them.
+    """
+    if unsound := unsound_inertias(robot):
+        raise NoPhysicsError(
+            f"robot '{robot.name}' has {len(unsound)} links that cannot act: {', '.join(map(str, unsound))}; "
+            "play the trial without physics, or take the robot 'icub'"
+        )
 
 
 def add_shape(spec: mujoco.MjSpec, shape: ContactShape) -> None:

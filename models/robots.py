@@ -10,11 +10,11 @@ joint J1 in the origin and z = 0 on the table top.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import pi
 from types import MappingProxyType
 
-from models.appearance import ICUB_APPEARANCE, Appearance
+from models.appearance import ICUB_APPEARANCE, ICUB_ERD_APPEARANCE, Appearance
 from models.limits import ICUB_LIMITS, MotorLimits
 from models.shapes import ICUB_SHAPES, ContactShape
 
@@ -170,7 +170,21 @@ ICUB = Robot(
     shapes=ICUB_SHAPES,
 )
 
-ROBOTS: Mapping[str, Robot] = MappingProxyType({robot.name: robot for robot in (ICUB,)})
+# An older iCub: the same joints and frames, the arm a centimetre longer, other joint limits, a block as hand.
+# Map and posture of the other one serve it as well: docs/port.md has the figures. Links without inertia
+# (`models.inertias` names them) keep it from acting with motors.
+ICUB_ERD = replace(
+    ICUB,
+    name="icub-erd",
+    title="iCub (example-robot-data)",
+    package="example-robot-data",
+    urdf="icub_description/robots/icub.urdf",
+    appearance=ICUB_ERD_APPEARANCE,
+    limits=None,
+    shapes=(),
+)
+
+ROBOTS: Mapping[str, Robot] = MappingProxyType({robot.name: robot for robot in (ICUB, ICUB_ERD)})
 
 
 def get_robot(name: str) -> Robot:

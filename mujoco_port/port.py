@@ -7,11 +7,15 @@ port_trial(record, Path("touch-red.mp4"))
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Final
 
 from arm2d import TrialRecord
 from models.robots import get_robot
 from mujoco_port.gl import choose_back_end
+
+N_GALLERY: Final = 9
 
 
 def port_trial(record: TrialRecord, output: Path | str, *, robot: str = "icub") -> Path:
@@ -39,6 +43,32 @@ def port_trial(record: TrialRecord, output: Path | str, *, robot: str = "icub") 
 
     write_video(record, chosen, path)
     return path
+
+
+def port_gallery(
+    records: Sequence[TrialRecord], title: str, output: Path | str, *, robot: str = "icub"
+) -> tuple[Path, Path]:
+    """Play nine recorded trials side by side and write them as an MP4, and its last picture as a PNG.
+
+    Args:
+        records: Nine trials, row by row.
+        title: What stands above them.
+        output: The video; its folder has to be there, and the picture will lie beside it.
+        robot: Name of a record in `models.robots`.
+
+    Returns:
+        The paths of the video and of the picture.
+
+    Raises:
+        ValueError: If there are not nine records. All other errors as `port_trial`.
+    """
+    if len(records) != N_GALLERY:
+        raise ValueError(f"a gallery has {N_GALLERY} trials, not {len(records)}; give one per instruction")
+    path, chosen = _writable(Path(output), ".mp4"), get_robot(robot)
+    choose_back_end()
+    from mujoco_port.gallery import write_gallery
+
+    return path, write_gallery(records, chosen, title, path)
 
 
 def port_picture(record: TrialRecord, step: int, output: Path | str, *, robot: str = "icub") -> Path:

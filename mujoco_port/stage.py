@@ -20,8 +20,10 @@ from mujoco_port.overlay import lay_over
 
 OBJECTS: Final = ("blue", "green", "red")
 BACKDROP_GROUP: Final = 2  # in `scene.xml`: of what never moves and never hides the robot
+PLACE: Final = 7  # numbers that say where a free object is
+UPRIGHT: Final = (1.0, 0.0, 0.0, 0.0)
 GLOW: Final = 0.45  # emission of an object that is touched
-RING: Final = (0.0385, 0.0006)  # [m], radius and half height of the light ring on the table under it
+RING: Final = (1.55, 0.0006)  # radius, of the object's; half height [m] of the ring of light under it
 RING_COLOUR: Final = np.array([1.0, 0.93, 0.35, 0.9], np.float32)
 
 
@@ -45,6 +47,7 @@ class Stage:
         self.data = mujoco.MjData(self.model)
         self._joints = [self.model.joint(ROBOT_PREFIX + name).qposadr[0] for name in robot.joints]
         self._objects = [self.model.joint(name).qposadr[0] for name in OBJECTS]
+        self._heights = [self.model.body(name).pos[2] for name in OBJECTS]
         self._materials = [self.model.material(name).id for name in OBJECTS]
         self._touched = np.zeros(len(OBJECTS), bool)
         self._camera = camera
@@ -75,10 +78,17 @@ class Stage:
         self._context.free()
 
     def pose(self, angles: NDArray[np.float64], objects: NDArray[np.float64]) -> None:
-        """Set joint angles [J] in [rad] and the objects' places [3, 7]: position in [m] and quaternion."""
+        """Set joint angles and objects.
+
+        Args:
+            angles: [J] in [rad].
+            objects: [3, 2] in [m], places on the table where they stand upright; or [3, 7], position in [m]
+                and quaternion.
+        """
         self.data.qpos[self._joints] = angles
-        for address, place in zip(self._objects, objects, strict=True):
-            self.data.qpos[address : address + 7] = place
+        for address, height, place in zip(self._objects, self._heights, objects, strict=True):
+            whole = place if len(place) == PLACE else (*place, height, *UPRIGHT)
+            self.data.qpos[address : address + PLACE] = whole
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)
 
@@ -131,7 +141,7 @@ class Stage:
 
     def _add_rings(self) -> None:
         """Lay a flat disc of light under each object that is touched."""
-        radius, height = RING
+        radius, height = RING[0] * self.model.geom(OBJECTS[0]).size[0], RING[1]
         for address in np.array(self._objects)[self._touched]:
             ring = self._scene.geoms[self._scene.ngeom]
             place = np.array([*self.data.qpos[address : address + 2], height])

@@ -10,10 +10,7 @@ from numpy.typing import NDArray
 from arm2d import TrialRecord
 from arm2d.drawing import state_at
 from models.robots import Robot
-from mujoco_port.rollout import Rollout, roll_out
-
-OBJECT_HEIGHT_M = 0.05  # of an object's centre above the table, as it stands
-UPRIGHT = (1.0, 0.0, 0.0, 0.0)
+from mujoco_port.rollout import roll_out
 
 
 @dataclass(frozen=True)
@@ -24,7 +21,8 @@ class Take:
         record: The trial in the planar world, shown beside the robot.
         steps: [F], moments in control steps of that trial, rising; the last one is its end.
         angles: [F, J] in [rad].
-        objects: [F, 3, 7], position in [m] and quaternion.
+        objects: [F, 3, 2] in [m], places on the table where they stand upright; or [F, 3, 7], position in
+            [m] and quaternion.
         touched: [F, 3], which objects glow.
         verdicts: Who judges and whether the instruction was carried out, one after the other.
     """
@@ -46,11 +44,5 @@ def kinematic_take(record: TrialRecord, robot: Robot, frames_per_step: float) ->
     rollout = roll_out(record, robot, frames_per_step)
     touched = np.array([state_at(record, step)[3] for step in rollout.steps])
     verdicts = (("planar world", record.success),)
-    return Take(record, rollout.steps, rollout.angles, standing(rollout), touched, verdicts)
+    return Take(record, rollout.steps, rollout.angles, rollout.objects, touched, verdicts)
 
-
-def standing(rollout: Rollout) -> NDArray[np.float64]:
-    """The objects' places [F, 3, 7] as they stand on the table."""
-    flat = rollout.objects
-    rest = np.broadcast_to([OBJECT_HEIGHT_M, *UPRIGHT], (*flat.shape[:2], 5))
-    return np.concatenate([flat, rest], axis=-1)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from models.meshes import read_mesh, thin
+from models.meshes import read_mesh, standing, thin
 
 
 def sheet(n):
@@ -58,3 +58,41 @@ def test_stl_that_is_cut_short_is_refused(tmp_path):
     path.write_bytes(bytes(80) + (7).to_bytes(4, "little") + bytes(50))
     with pytest.raises(ValueError, match=r"cut\.stl is not a whole binary STL file; install its"):
         read_mesh(path)
+
+
+DAE = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>{up}</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="24">{places}</float_array><technique_common>
+<accessor source="#a" count="8" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles material="first" count="2"><input semantic="VERTEX" source="#v" offset="0"/>
+<p>0 1 2 0 2 3</p></triangles>
+<polylist material="second" count="1"><input semantic="VERTEX" source="#v" offset="0"/>
+<vcount>4</vcount><p>4 5 6 7</p></polylist>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>"""
+SQUARES = "0 0 0 1 0 0 1 1 0 0 1 0   0 0 5 3 0 5 3 3 5 0 3 5"  # of edge 1, and above it of edge 3
+
+
+def dae(folder, up="Z_UP"):
+    path = folder / "squares.dae"
+    path.write_text(DAE.format(up=up, places=SQUARES))
+    return path
+
+
+def test_parts_of_a_dae_file_keep_their_own_vertices(tmp_path):
+    vertices, faces = read_mesh(dae(tmp_path))
+    heights = vertices[faces][..., 2]
+    assert sorted(heights.mean(axis=1)) == pytest.approx([0, 0, 5, 5])
+    assert np.ptp(heights, axis=1).max() == 0.0  # no face leads from one square to the other
+    assert area(vertices, faces) == pytest.approx(1 + 9)
+
+
+def test_a_file_with_y_up_is_turned_so_that_z_is_up(tmp_path):
+    vertices = np.array([[1.0, 2.0, 3.0]])
+    np.testing.assert_array_equal(standing(dae(tmp_path, "Y_UP"), vertices), [[1.0, -3.0, 2.0]])
+    np.testing.assert_array_equal(standing(dae(tmp_path, "Z_UP"), vertices), vertices)

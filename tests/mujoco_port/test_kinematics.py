@@ -6,9 +6,22 @@ import pytest
 from scipy.optimize import least_squares
 
 from models.build import HAND_SITE, ROBOT_PREFIX, build_model
-from mujoco_port.kinematics import MAX_TURN, OutOfReachError
+from models.robots import ROBOTS, get_robot
+from mujoco_port.kinematics import MAX_TURN, ArmKinematics, OutOfReachError
 from mujoco_port.rollout import roll_out
 from mujoco_port.workspace import hand_headings, hand_targets
+
+
+# Every robot there is has to pass.
+@pytest.fixture(scope="module", params=ROBOTS)
+def robot(request):
+    return get_robot(request.param)
+
+
+@pytest.fixture(scope="module")
+def kinematics(robot):
+    return ArmKinematics(robot)
+
 
 LARGEST_ERROR_M = 1e-6
 LARGEST_JUMP_RAD = 0.15

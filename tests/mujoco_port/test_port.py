@@ -8,13 +8,17 @@ import imageio.v3 as imageio
 import numpy as np
 import pytest
 
+from arm2d import NON_EXPERIENCED
 from arm2d.drawing import OBJECT_COLOURS
 from models.robots import UnknownRobotError
-from mujoco_port.port import port_picture, port_trial
+from mujoco_port.gallery import CELL_WIDTH, GAP, HEADER
+from mujoco_port.gallery import HOLD_S as GALLERY_HOLD_S
+from mujoco_port.gallery import frames as gallery_frames
+from mujoco_port.port import port_gallery, port_picture, port_trial
 from mujoco_port.rollout import FRAMES_PER_STEP, moments, roll_out
 from mujoco_port.stage import Stage
 from mujoco_port.take import kinematic_take
-from mujoco_port.video import CAPTION_HEIGHT_PX, HEIGHT_PX, Side
+from mujoco_port.video import CAPTION_HEIGHT_PX, HEIGHT_PX, PER_SECOND, Side
 from mujoco_port.workspace import on_table, tip_in_plane
 
 
@@ -112,13 +116,35 @@ def test_verdicts_stand_in_the_last_frame_only(robot, shortest):
     assert (ended < 80).all(axis=-1).sum() > 100
 
 
+def test_a_gallery_goes_on_until_the_longest_trial_has_ended(robot, champion_records):
+    """Two cells stand for nine: one frame of each moment, the last ones held."""
+    short, long = sorted(champion_records, key=lambda each: each.steps)[:2]
+    takes = [kinematic_take(record, robot, 0.2) for record in (short, long)]
+    pictures = list(gallery_frames(takes, robot, "two of nine"))
+    n_held = round(GALLERY_HOLD_S * PER_SECOND)
+    assert len(pictures) == max(len(take.steps) for take in takes) + n_held
+    assert {picture.shape for picture in pictures} == {(1080, 1920, 3)}
+    first, last = pictures[0].astype(int), pictures[-1].astype(int)
+    np.testing.assert_array_equal(last, pictures[-n_held])
+    assert (np.abs(first - last)[HEADER:, : CELL_WIDTH + GAP] > 30).any()  # the verdict, if nothing else
+    dark = (last < 40).all(axis=-1)
+    for k, take in enumerate(takes):
+        edge = dark[HEADER, GAP + k * (CELL_WIDTH + GAP) : GAP + k * (CELL_WIDTH + GAP) + CELL_WIDTH]
+        assert edge.all() == (take.record.instruction in NON_EXPERIENCED)
+
+
+def test_a_gallery_of_too_few_trials_is_refused(shortest, tmp_path):
+    with pytest.raises(ValueError, match="a gallery has 9 trials, not 1; give one per instruction"):
+        port_gallery([shortest], "one", tmp_path / "gallery.mp4")
+
+
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     [
         (
             lambda r, d: port_trial(r, d / "x.mp4", robot="nao"),
             UnknownRobotError,
-            "unknown robot 'nao'; there are: icub",
+            "unknown robot 'nao'; there are: icub, icub-erd",
         ),
         (lambda r, d: port_trial(r, d / "x.avi"), ValueError, "does not end in .mp4"),
         (lambda r, d: port_trial(r, d / "no" / "x.mp4"), OSError, "its folder is missing or read-only"),
