@@ -45,4 +45,3 @@ def kinematic_take(record: TrialRecord, robot: Robot, frames_per_step: float) ->
     touched = np.array([state_at(record, step)[3] for step in rollout.steps])
     verdicts = (("planar world", record.success),)
     return Take(record, rollout.steps, rollout.angles, rollout.objects, touched, verdicts)
-
