@@ -13,7 +13,8 @@ from models.appearance import MeshSwap, Ornament
 from models.inertias import fault, moments
 from models.meshes import read_mesh, standing, thin
 from models.robots import Robot
-from models.urdf import find_urdf, read_spec, share_folder
+from models.spec import read_spec
+from models.urdf import find_urdf, share_folder
 
 ROBOT_PREFIX = "robot/"  # of every name that comes from the URDF, so that none meets one of the scene
 HAND_SITE = "robot/hand"  # the point that plays S2's end

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.robots import Robot
-from models.urdf import read_spec
+from models.spec import read_spec
 
 SLACK: Final = 1e-6  # of the triangle inequality, relative to the largest moment: rounding in the file
 

@@ -6,12 +6,7 @@ import re
 from importlib.metadata import PackageNotFoundError, files
 from pathlib import Path
 
-import mujoco
-
 from models.robots import Robot
-
-# Else MuJoCo would leave out what is only shown, and merge links that do not move into others.
-KEEP_ALL = '<mujoco><compiler discardvisual="false" fusestatic="false"/></mujoco>'
 
 
 class RobotNotInstalledError(FileNotFoundError):
@@ -67,19 +62,3 @@ def read_urdf(robot: Robot) -> str:
     """Give a robot's URDF with absolute mesh paths in place of `package://`."""
     path = find_urdf(robot)
     return path.read_text().replace("package://", f"{share_folder(path)}/")
-
-
-def read_spec(robot: Robot) -> mujoco.MjSpec:
-    """Give a robot's URDF as a specification of MuJoCo, all links and all shapes that are shown kept.
-
-    Raises:
-        RobotNotInstalledError: If the robot's package is missing.
-    """
-    text = read_urdf(robot)
-    opened = re.search(r"<robot\b[^>]*>", text)
-    if opened is None:
-        raise RobotNotInstalledError(
-            f"{robot.urdf} of the package {robot.package} holds no robot; "
-            f"run: pip install --force-reinstall {robot.package}"
-        )
-    return mujoco.MjSpec.from_string(text[: opened.end()] + KEEP_ALL + text[opened.end() :])

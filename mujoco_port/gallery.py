@@ -17,6 +17,7 @@ from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
 from arm2d.video import Panel, write_mp4
 from models.robots import Robot
 from mujoco_port.caption import BADGE, FAINT, blank, mark, pixels
+from mujoco_port.overlay import halved
 from mujoco_port.rollout import FRAMES_PER_STEP
 from mujoco_port.stage import Stage
 from mujoco_port.take import Take, kinematic_take
@@ -76,7 +77,7 @@ def frames(takes: Sequence[Take], robot: Robot, title: str) -> Iterator[NDArray[
     picture = np.empty((HEIGHT, WIDTH, 3), np.uint8)
     picture[:] = _rgb(FLOOR)
     picture[:HEADER] = header(robot, title)
-    with Stage(robot, ROBOT_WIDTH, VIEW_HEIGHT) as stage:
+    with Stage(robot, 2 * ROBOT_WIDTH, 2 * VIEW_HEIGHT) as stage:
         cells = [cell_pictures(take, stage) for take in takes]
         for _ in range(max(len(take.steps) for take in takes)):
             for k, cell in enumerate(cells):
@@ -93,7 +94,8 @@ def cell_pictures(take: Take, stage: Stage) -> Iterator[NDArray[np.uint8]]:
     """One trial's cell at each of its moments; the last one shows the verdict."""
     panel = Panel(take.record, PANEL_WIDTH, VIEW_HEIGHT, caption=False)
     words = strip(take.record.instruction)
-    for step, robot in zip(take.steps, robot_pictures(take, stage), strict=True):
+    views = (halved(each) for each in robot_pictures(take, stage))
+    for step, robot in zip(take.steps, views, strict=True):
         success = take.verdicts[-1][1] if step >= take.steps[-1] else None
         line = np.concatenate([words, clock(f"{step * DT:.1f} s", success)], axis=1)
         cell = np.concatenate([line, np.concatenate([robot, panel.frame(step)], axis=1)])

@@ -15,6 +15,7 @@ from arm2d.constants import DT
 from arm2d.video import Panel, write_mp4
 from models.robots import Robot
 from mujoco_port.caption import footing, heading
+from mujoco_port.overlay import halved
 from mujoco_port.rollout import FRAMES_PER_STEP
 from mujoco_port.stage import Stage
 from mujoco_port.take import Take, kinematic_take
@@ -98,14 +99,14 @@ def robot_pictures(take: Take, stage: Stage) -> Iterator[NDArray[np.uint8]]:
 
 
 def frame_at(record: TrialRecord, robot: Robot, step: int) -> NDArray[np.uint8]:
-    """One such frame, after `step` whole steps.
+    """One such frame, after `step` whole steps; drawn larger than it is, so that edges are smooth.
 
     Raises:
         ValueError: If the record has no such step.
     """
     take = kinematic_take(record, robot, frames_per_step=1)
     panel = Side(take, robot).frame(step)
-    with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX) as stage:
+    with Stage(robot, 2 * ROBOT_WIDTH_PX, 2 * HEIGHT_PX) as stage:
         stage.pose(take.angles[step], take.objects[step])
         stage.highlight(take.touched[step])
-        return np.concatenate([stage.picture(), panel], axis=1)
+        return np.concatenate([halved(stage.picture()), panel], axis=1)
