@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -17,18 +17,17 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from matplotlib.colors import to_hex
 
-from arm2d import NON_EXPERIENCED, Readings
+from arm2d import NON_EXPERIENCED
 from arm2d.drawing import OBJECT_COLOURS
-from evolution import meta
 from evolution.class_files import behaviours_kept, class_figures
 from evolution.class_observation import Sampling
 from evolution.figures import SUCCESS_MAP
 from evolution.figures_paper import all_figures
-from evolution.folder import META
 from evolution.generaliser_text import generalisers_sentence
 from evolution.notable import Agent, best_agent
 from evolution.postevaluation import TRIALS
 from evolution.recordings_for_web import recordings_of
+from evolution.report_configuration import readings_rows, settings_rows, versions_rows
 from evolution.report_figures import figure_uri, file_uri
 from evolution.report_lines import main_lines
 from evolution.report_sentences import result_sentences, standing_of_best
@@ -103,9 +102,9 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "recordings": _embedded([each["recordings"] for each in agents]),
         "trials": TRIALS,
         "films": list(_films(experiment.path, home)),
-        "settings": _settings(results),
-        "readings": _readings(experiment.readings),
-        "versions": _versions(results),
+        "settings": settings_rows(results),
+        "readings": readings_rows(experiment.readings),
+        "versions": versions_rows(results),
         "times": stage_times(experiment.path),
     }
 
@@ -169,41 +168,6 @@ def _films(experiment: Path, home: Path) -> Iterable[tuple[str, str]]:
     for path in sorted([*experiment.glob("videos/*.mp4"), *experiment.glob("*/*/videos/*.mp4")]):
         parts = [part for part in path.relative_to(experiment).parts[:-1] if part != "videos"]
         yield ", ".join([*parts, path.stem.replace("-", " ")]), os.path.relpath(path, home)
-
-
-def _settings(results: Results) -> list[tuple[str, str]]:
-    """Settings of the algorithm, with all values that occur."""
-    mappings = [run.config.settings.to_mapping() for run in results.experiment.all_runs]
-    return [(name, ", ".join(sorted({str(each[name]) for each in mappings}))) for name in mappings[0]]
-
-
-def _readings(readings: Readings) -> list[tuple[str, str, bool]]:
-    """(name, value, whether it is the default) of every reading."""
-    default, values = Readings().to_mapping(), readings.to_mapping()
-    return [
-        (each.name, _plain(values[each.name]), values[each.name] == default[each.name])
-        for each in fields(Readings)
-    ]
-
-
-def _plain(value: object) -> str:
-    return ", ".join(f"{each:g}" for each in value) if isinstance(value, list) else str(value)
-
-
-def _versions(results: Results) -> list[tuple[str, str]]:
-    """With what runs were computed and this page was written; all values that occur."""
-    found: dict[str, set[str]] = {}
-    for run in results.experiment.all_runs:
-        for start in meta.read_meta(run.path / META)["starts"]:
-            own = {
-                **start.get("versions", {}),
-                "revision": start.get("revision", "unknown"),
-                **start.get("machine", {}),
-            }
-            for name, value in own.items():
-                found.setdefault(name, set()).add(str(value))
-    rows = [(name, ", ".join(sorted(values))) for name, values in found.items()]
-    return [*rows, ("this page", f"wordarm {meta.versions()['wordarm']}, revision {meta.revision()}")]
 
 
 def _embedded(value: object) -> Markup:

@@ -1,0 +1,45 @@
+"""The report's configuration: settings, readings, versions, as rows of text."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+from arm2d import Readings
+from evolution import meta
+from evolution.folder import META
+from evolution.results import Results
+
+
+def settings_rows(results: Results) -> list[tuple[str, str]]:
+    """Settings of the algorithm, with all values that occur."""
+    mappings = [run.config.settings.to_mapping() for run in results.experiment.all_runs]
+    return [(name, ", ".join(sorted({str(each[name]) for each in mappings}))) for name in mappings[0]]
+
+
+def readings_rows(readings: Readings) -> list[tuple[str, str, bool]]:
+    """(name, value, whether it is the default) of every reading."""
+    default, values = Readings().to_mapping(), readings.to_mapping()
+    return [
+        (each.name, _plain(values[each.name]), values[each.name] == default[each.name])
+        for each in fields(Readings)
+    ]
+
+
+def _plain(value: object) -> str:
+    return ", ".join(f"{each:g}" for each in value) if isinstance(value, list) else str(value)
+
+
+def versions_rows(results: Results) -> list[tuple[str, str]]:
+    """With what runs were computed and this page was written; all values that occur."""
+    found: dict[str, set[str]] = {}
+    for run in results.experiment.all_runs:
+        for start in meta.read_meta(run.path / META)["starts"]:
+            own = {
+                **start.get("versions", {}),
+                "revision": start.get("revision", "unknown"),
+                **start.get("machine", {}),
+            }
+            for name, value in own.items():
+                found.setdefault(name, set()).add(str(value))
+    rows = [(name, ", ".join(sorted(values))) for name, values in found.items()]
+    return [*rows, ("this page", f"wordarm {meta.versions()['wordarm']}, revision {meta.revision()}")]
