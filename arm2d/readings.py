@@ -30,6 +30,10 @@ class Readings:
     parent_scaling: Literal["raw", "cubed"] = "raw"
     """"fitness-proportional": parents are drawn in proportion to their fitness or to its cube."""
 
+    ties: Literal["elders", "children"] = "elders"
+    """Not said: of equally fit genotypes those copied on unchanged rank before their children, or after
+    them. If before, three elites at a fitness that all good genotypes reach are never replaced."""
+
     bias_ranges: Literal["symmetric", "negative"] = "symmetric"
     """"[-4, -4]" and "[-5, -5]", both empty: [-4, 4] and [-5, 5]; or beta_I in [-4, -2]."""
 

@@ -21,9 +21,14 @@ def initial_genotypes(settings: Settings, rng: np.random.Generator) -> NDArray[n
     return rng.random((settings.population, N_GENES))
 
 
-def rank(fitness: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Indices from the best to the worst, [P]; equals stand in the order of their indices."""
-    return np.argsort(-fitness, kind="stable")
+def rank(fitness: NDArray[np.float64], readings: Readings) -> NDArray[np.int64]:
+    """Indices from the best to the worst, [P].
+
+    Equals stand in the order of their indices, elites first, or in the opposite one (reading `ties`).
+    """
+    if readings.ties == "elders":
+        return np.argsort(-fitness, kind="stable")
+    return len(fitness) - 1 - np.argsort(-fitness[::-1], kind="stable")
 
 
 def mean_in_order(values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -39,7 +44,7 @@ def choose_parents(
     The parent of an elite is itself. A child's is drawn with probability proportional to fitness, or
     to its cube, among the best `settings.parents`; uniformly if none of them scored at all.
     """
-    order = rank(fitness)
+    order = rank(fitness, readings)
     candidates = order[: settings.parents]
     bounds = np.add.accumulate(_weights(fitness[candidates], readings))
     draws = rng.random(settings.population - settings.elites) * bounds[-1]  # [C]

@@ -60,7 +60,7 @@ def _checked(folder: RunFolder, path: Path, arrays: Mapping[str, NDArray]) -> Ch
     population = Population(generation, arrays["next_genotypes"], arrays["next_parents"])
     # Once the run is over, its last generation stands in a part, and nothing is unfinished.
     first = next((span.start for span in folder.spans if generation in span), generation)
-    return Checkpoint(population, history_from_arrays(path, arrays, range(first, generation), n_genotypes))
+    return Checkpoint(population, history_from_arrays(path, arrays, range(first, generation), folder.config))
 
 
 def save_checkpoint(folder: RunFolder, checkpoint: Checkpoint) -> None:

@@ -127,7 +127,7 @@ class RunFolder:
         """
         path = self.part_path(span)
         try:
-            return history_from_arrays(path, self.read_arrays(path), span, self.config.settings.population)
+            return history_from_arrays(path, self.read_arrays(path), span, self.config)
         except DamagedFileError as error:
             raise self.damaged(span, error.found) from None
 

@@ -82,7 +82,7 @@ def generalisers_of(
     if len(rows):
         history = late_history(run)
         first, stays, verdicts = _stays(history.best_genotypes, members)
-        indices = np.stack([ranking(fitness)[:N_BEST] for fitness in history.fitness])
+        indices = np.stack([ranking(fitness, run.config.readings)[:N_BEST] for fitness in history.fitness])
         longest = longest_line(indices, history.parents, members)
     return Generalisers(
         counts=counts,

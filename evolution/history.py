@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
 from evolution.algorithm import mean_in_order, rank
+from evolution.config import RunConfig
 from evolution.population import Population
 from evolution.settings import N_BEST
 from evolution.storage import DamagedFileError
@@ -65,21 +66,22 @@ class History:
 
 
 class HistoryBuilder:
-    """Collects generations while they are scored."""
+    """Collects generations of a run while they are scored."""
 
-    def __init__(self, n_genotypes: int) -> None:
+    def __init__(self, config: RunConfig) -> None:
         self._generations: list[int] = []
         self._fitness: list[NDArray] = []
         self._parents: list[NDArray] = []
         self._best_genotypes: list[NDArray] = []
-        self._n_genotypes = n_genotypes
+        self._readings = config.readings
+        self._n_genotypes = config.settings.population
 
     def append(self, population: Population, fitness: NDArray[np.float64]) -> None:
         """Add a generation with the fitness [P] it scored."""
         self._generations.append(population.generation)
         self._fitness.append(fitness)
         self._parents.append(population.parents)
-        self._best_genotypes.append(population.genotypes[rank(fitness)[:N_BEST]])
+        self._best_genotypes.append(population.genotypes[rank(fitness, self._readings)[:N_BEST]])
 
     def extend(self, history: History) -> None:
         """Add what was collected before."""
@@ -105,19 +107,19 @@ class HistoryBuilder:
         )
 
 
-def history_from_arrays(path: Path, arrays: Mapping[str, NDArray], span: range, n_genotypes: int) -> History:
+def history_from_arrays(path: Path, arrays: Mapping[str, NDArray], span: range, config: RunConfig) -> History:
     """A history read from a file, held against what it should be.
 
     Args:
         path: Where the arrays come from, for the message.
         arrays: By name.
         span: The generations they should be of.
-        n_genotypes: P.
+        config: The run.
 
     Raises:
         DamagedFileError: If an array is missing or of another kind, or the generations are others.
     """
-    expected = HistoryBuilder(n_genotypes).build().arrays()
+    expected = HistoryBuilder(config).build().arrays()
     for name, example in expected.items():
         check_array(path, arrays, name, (len(span), *example.shape[1:]), example.dtype)
     history = History(*(arrays[name] for name in expected))
@@ -125,7 +127,7 @@ def history_from_arrays(path: Path, arrays: Mapping[str, NDArray], span: range, 
         raise DamagedFileError(path, f"its generations are not {span.start} to {span.stop - 1}")
     for name in ("fitness", "best", "mean", "median", "worst"):
         check_range(path, arrays, name, 0.0, LARGEST_FITNESS)
-    check_range(path, arrays, "parents", -1, n_genotypes - 1)
+    check_range(path, arrays, "parents", -1, config.settings.population - 1)
     check_range(path, arrays, "best_genotypes", 0.0, 1.0)
     return history
 

@@ -77,7 +77,8 @@ def trace_lineage(folder: RunFolder, generation: int | None = None, rank: int = 
     if not 0 <= rank < n_genotypes:
         raise ValueError(f"rank {rank} does not exist; the generation has ranks 0 to {n_genotypes - 1}")
     history = history[: last + 1]
-    indices = ancestor_indices(history.parents, int(ranking(history.fitness[-1])[rank]))
+    order = ranking(history.fitness[-1], folder.config.readings)
+    indices = ancestor_indices(history.parents, int(order[rank]))
     genotypes = _breed_line(folder, history, indices)
     copied = np.all(genotypes[1:] == genotypes[:-1], axis=1)
     rows = np.arange(last + 1)

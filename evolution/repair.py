@@ -65,7 +65,7 @@ def _repair_parts(folder: RunFolder, on_note: Tell) -> tuple[int, Population]:
 
 def _score_part(folder: RunFolder, span: range, population: Population) -> Population:
     """Score the generations of a part, write it, and return the population after it."""
-    part = HistoryBuilder(folder.config.settings.population)
+    part = HistoryBuilder(folder.config)
     while population.generation < span.stop:
         fitness = score_population(population, folder.config)
         part.append(population, fitness)
@@ -79,7 +79,7 @@ def _repair_checkpoint(folder: RunFolder, population: Population, on_note: Tell)
     try:
         load_checkpoint(folder)
     except DamagedFileError as error:
-        nothing = HistoryBuilder(folder.config.settings.population).build()
+        nothing = HistoryBuilder(folder.config).build()
         save_checkpoint(folder, Checkpoint(population, nothing))
         generation = population.generation
         on_note(

@@ -32,7 +32,7 @@ def replay(population: Population, history: History, config: RunConfig) -> Popul
         ContradictionError: If parents or best genotypes are not those that the run breeds.
     """
     for row in range(population.generation - int(history.generations[0]), len(history)):
-        best = population.genotypes[rank(history.fitness[row])[:N_BEST]]
+        best = population.genotypes[rank(history.fitness[row], config.readings)[:N_BEST]]
         if not (
             np.array_equal(population.parents, history.parents[row])
             and np.array_equal(best, history.best_genotypes[row])

@@ -98,7 +98,7 @@ def resume(folder: RunFolder, watcher: Watcher) -> Checkpoint:
             population = replay_part(folder, span, population)
     if checkpoint and checkpoint.first == end:
         return checkpoint
-    return Checkpoint(population, HistoryBuilder(folder.config.settings.population).build())
+    return Checkpoint(population, HistoryBuilder(folder.config).build())
 
 
 def _sound_checkpoint(folder: RunFolder, watcher: Watcher) -> Checkpoint | None:
@@ -120,7 +120,7 @@ def _keep_last_checkpoint(folder: RunFolder, reached: Checkpoint) -> None:
 def _score_generations(folder: RunFolder, start: Checkpoint, watcher: Watcher) -> Checkpoint:
     """Score generation after generation; write a part and a checkpoint at the end of each part."""
     config, began = folder.config, time.process_time()
-    population, part = start.population, HistoryBuilder(config.settings.population)
+    population, part = start.population, HistoryBuilder(config)
     part.extend(start.unfinished)
     span_until = {span.stop: span for span in folder.spans}
     meta.note_start(folder.path / META, population.generation)
@@ -134,7 +134,7 @@ def _score_generations(folder: RunFolder, start: Checkpoint, watcher: Watcher) -
         population = next_population(population, fitness, config)
         if population.generation in span_until:
             folder.write_part(span_until[population.generation], part.build())
-            part = HistoryBuilder(config.settings.population)
+            part = HistoryBuilder(config)
             save_checkpoint(folder, Checkpoint(population, part.build()))
     reached = Checkpoint(population, part.build())
     save_checkpoint(folder, reached)

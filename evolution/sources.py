@@ -100,7 +100,8 @@ def _of_generation(folder: RunFolder, generation: int, rank: int) -> NDArray[np.
         raise ValueError(f"rank {rank} does not exist; the generation has ranks 0 to {n_genotypes - 1}")
     if rank < N_BEST:
         return scored.best_genotypes[0, rank]
-    return population_at(folder, generation).genotypes[ranking(scored.fitness[0])[rank]]
+    order = ranking(scored.fitness[0], folder.config.readings)
+    return population_at(folder, generation).genotypes[order[rank]]
 
 
 def _from_file(path: Path, rank: int, condition: Condition | None) -> Source:

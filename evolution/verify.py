@@ -73,7 +73,7 @@ def verify(
                 findings.scored += 1
             else:
                 fitness = recorded.fitness[row]
-            newest.append(_one_generation(population, fitness))
+            newest.append(_one_generation(population, fitness, folder.config))
             findings.walked += 1
             on_generation(Progress(generation, float(fitness.max()), float(mean_in_order(fitness))))
             if recorded and (otherwise := _difference(newest[-1], recorded[row : row + 1])):
@@ -161,9 +161,9 @@ def _other_population(checkpoint: Checkpoint | None, population: Population) -> 
     )
 
 
-def _one_generation(population: Population, fitness: NDArray[np.float64]) -> History:
+def _one_generation(population: Population, fitness: NDArray[np.float64], config: RunConfig) -> History:
     """A scored generation as a history of one."""
-    builder = HistoryBuilder(len(fitness))
+    builder = HistoryBuilder(config)
     builder.append(population, fitness)
     return builder.build()
 

@@ -20,6 +20,7 @@ FACTORS: Final[tuple[Overrides, ...]] = (
     {"mutation_probability": 0.04},
     {"mutation_sd": 0.03},
     {"parent_scaling": "cubed"},
+    {"ties": "children"},
     {"bias_ranges": "negative"},
     {"tau_exponent_max": 1.0},
     {"tau_exponent_max": 0.0},

@@ -26,6 +26,7 @@ ALTERNATIVES = {
     "mutation_probability": [0.04],
     "mutation_sd": [0.03],
     "parent_scaling": ["cubed"],
+    "ties": ["children"],
     "bias_ranges": ["negative"],
     "tau_exponent_max": [1.0, 0.0],
     "object_radius": [3.0, 8.0, 10.0],

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -26,7 +28,15 @@ def test_initial_genes_fill_the_unit_interval():
 
 
 def test_ranking_goes_from_best_to_worst_and_breaks_ties_by_index():
-    assert rank(np.array([1.0, 2.0, 1.0, 3.0, 2.0])).tolist() == [3, 1, 4, 0, 2]
+    assert rank(np.array([1.0, 2.0, 1.0, 3.0, 2.0]), READINGS).tolist() == [3, 1, 4, 0, 2]
+
+
+def test_children_that_are_as_good_replace_elites_where_they_rank_first():
+    readings, fitness = replace(READINGS, ties="children"), np.array([1.0, 2.0, 1.0, 3.0, 2.0])
+    assert rank(fitness, readings).tolist() == [3, 4, 1, 2, 0]
+    equal = np.ones(100)
+    assert choose_parents(equal, SETTINGS, readings, rng())[:3].tolist() == [99, 98, 97]
+    assert choose_parents(equal, SETTINGS, READINGS, rng())[:3].tolist() == [0, 1, 2]
 
 
 def test_mean_is_summed_from_first_to_last():
@@ -41,14 +51,14 @@ def test_elites_come_first_as_their_own_parents():
     fitness = rng().random(100)
     parents = choose_parents(fitness, SETTINGS, READINGS, rng(1))
     assert parents.shape == (100,)
-    assert parents[:3].tolist() == rank(fitness)[:3].tolist()
+    assert parents[:3].tolist() == rank(fitness, READINGS)[:3].tolist()
 
 
 def test_children_descend_from_the_fifty_best_only():
     fitness = rng().random(100)
     for seed in range(20):
         parents = choose_parents(fitness, SETTINGS, READINGS, rng(seed))
-        assert set(parents) <= set(rank(fitness)[:50])
+        assert set(parents) <= set(rank(fitness, READINGS)[:50])
 
 
 @pytest.mark.parametrize(("scaling", "power"), [("raw", 1), ("cubed", 3)])

@@ -75,7 +75,7 @@ def test_a_line_goes_from_parent_to_child_and_ends_where_one_is_no_member():
 
 
 def test_an_elite_that_is_always_a_member_is_a_line_of_its_stay(run, late):
-    indices = np.stack([rank(fitness)[:5] for fitness in late.fitness])
+    indices = np.stack([rank(fitness, run.config.readings)[:5] for fitness in late.fitness])
     same = (late.best_genotypes[1:, 0] == late.best_genotypes[:-1, 0]).all(axis=1)
     start = int(np.flatnonzero(same)[0])
     members = members_at(late, (start, 0), (start + 1, 0))
@@ -106,7 +106,7 @@ def test_every_fully_compositional_agent_is_a_mark_above_the_partial_ones(run, l
     draw_density(axes, late.generations, np.ones((len(late), 5), bool), 0.0, -0.5)
     draw_marks(axes, found, 0.0, -0.5)
     (marks,) = axes.lines
-    assert marks.get_xdata().tolist() == [late.generations[row] for row, _ in agents]
+    assert np.asarray(marks.get_xdata()).tolist() == [late.generations[row] for row, _ in agents]
     lanes = np.round(-np.asarray(marks.get_ydata()) / 0.1 - 0.5).astype(int)
     assert lanes.tolist() == [place for _, place in agents]
     assert marks.get_zorder() > axes.images[0].get_zorder()
