@@ -24,7 +24,7 @@ from mujoco_port.doctor.findings import Finding, State
 TOPIC: Final = "packages"
 PROJECT: Final = "wordarm"
 # How a package is imported, where that is not its name; None: it holds data only.
-MODULES: Final = {"pin": "pinocchio", "icub-models": None, "example-robot-data": None}
+MODULES: Final = {"pin": "pinocchio", "pillow": "PIL", "icub-models": None, "example-robot-data": None}
 OVERLAY_ROOTS: Final = ("/opt/ros", "/opt/openrobots")
 ABSENT_LIBRARY: Final = re.compile(r"(lib\S+\.so[.\d]*): cannot open shared object file")
 # Which of Debian's packages brings a library that wheels expect of the system.

@@ -114,7 +114,7 @@ def test_a_damaged_part_costs_its_run_only_and_is_named(experiment, tmp_path):
     assert results.conditions[Condition.WITH_IGNORE].seeds.tolist() == [2]
     (sentence,) = results.missing
     assert sentence.startswith("with-ignore, seed 1: left out, ")
-    assert f"remove it and repeat: wordarm postevaluate {run.path}" in sentence
+    assert f"with: wordarm repair {run.path}" in sentence
 
 
 def test_an_unreadable_run_and_a_missing_seed_are_named(experiment, tmp_path):
