@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 WORKER: Final = "worker"
-ORPHAN: Final = "worker whose parent was killed"
+ORPHAN: Final = "orphaned worker"
 PARENT: Final = "parent"
 STARTER: Final = "process that forks workers"
 
