@@ -23,7 +23,8 @@ LARGEST_DRAWING: Final = 400_000
 # Resolutions of dense layers, tried in turn until the drawing is small enough [dots per inch].
 LAYER_RESOLUTIONS: Final = (220, 160, 110, 80)
 RESOLUTION: Final = 200  # of a PNG, likewise
-PATH: Final = re.compile(rb' d="[^"]*"')
+PATH: Final = re.compile(rb' (?:d|x|y)="[^"]*"')
+INDENT: Final = re.compile(rb"\n +")
 DIGITS: Final = re.compile(rb"(\.\d{2})\d+")
 
 
@@ -44,14 +45,16 @@ def svg_bytes(figure: Figure) -> bytes:
 
 
 def shortened(drawing: bytes) -> bytes:
-    """A drawing whose paths are exact to a hundredth of a point, which no screen can tell."""
-    return PATH.sub(lambda path: DIGITS.sub(rb"\1", path.group()), drawing)
+    """A drawing exact to a hundredth of a point, which no screen can tell, without indents."""
+    return INDENT.sub(b"\n", PATH.sub(lambda path: DIGITS.sub(rb"\1", path.group()), drawing))
 
 
 @contextmanager
 def _dense_layers_as_pixels(figure: Figure) -> Iterator[None]:
-    """While open, lines and collections of all axes are drawn as pixels."""
-    layers: list[Artist] = [each for axes in figure.axes for each in (*axes.collections, *axes.lines)]
+    """While open, patches, lines and collections of all axes are drawn as pixels."""
+    layers: list[Artist] = [
+        each for axes in figure.axes for each in (*axes.collections, *axes.patches, *axes.lines)
+    ]
     before = [each.get_rasterized() for each in layers]
     for each in layers:
         each.set_rasterized(True)

@@ -80,12 +80,11 @@ def _trim(above, below, end: float, column: int, lowest: bool) -> None:
     """Limits and labels of a pair of panels."""
     for axes in (above, below):
         axes.set_xlim(0, end)
-        if column:
-            axes.set_yticklabels([])
+        axes.tick_params(left=not column, labelleft=not column, bottom=lowest and axes is below)
     if not column:
         above.set_ylabel("alpha [°]", fontsize=8)
         below.set_ylabel("beta", fontsize=8)
     if lowest:
         below.set_xlabel("time [s]", fontsize=9)
     else:
-        below.set_xticklabels([])
+        below.tick_params(labelbottom=False)
