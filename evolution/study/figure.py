@@ -70,7 +70,7 @@ def effects_figure(variants: Sequence[VariantMeasures], title: str) -> Figure:
         panels = figure.subplots(1, len(COLUMNS), sharey=True, squeeze=False)[0]
         for axes, column in zip(panels, COLUMNS, strict=True):
             _draw_effects(axes, column, variants)
-        labels = [f"{each.name.replace('-', ' ')}  ({len(each.runs)})" for each in variants]
+        labels = [f"{readable(each)}  ({len(each.runs)})" for each in variants]
         panels[0].set_yticks(range(len(variants)), labels, fontsize=8.5)
         for label, each in zip(panels[0].get_yticklabels(), variants, strict=True):
             label.set_fontweight("bold" if each.name == DEFAULT else "normal")
@@ -101,6 +101,11 @@ def _draw_effects(axes: Axes, column: Column, variants: Sequence[VariantMeasures
     axes.spines[["top", "right", "left"]].set_visible(False)
 
 
+def readable(variant: VariantMeasures) -> str:
+    """A variant's name for people: `start-areas-bounds+mutation-sd-0.03` in words."""
+    return variant.name.replace("+", ", ").replace("-", " ")
+
+
 def failures_figure(variants: Sequence[VariantMeasures], title: str) -> Figure:
     """A row per variant: mean success of late agents on each instruction from each start area.
 
@@ -119,9 +124,7 @@ def failures_figure(variants: Sequence[VariantMeasures], title: str) -> Figure:
         shares = np.array([each.success_by_area.ravel() for each in variants])
         image = axes.imshow(100 * shares, cmap=SUCCESS_MAP, vmin=0, vmax=100, aspect="auto")
         axes.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=8)
-        axes.set_yticks(
-            range(len(variants)), [each.name.replace("-", " ") for each in variants], fontsize=8.5
-        )
+        axes.set_yticks(range(len(variants)), [readable(each) for each in variants], fontsize=8.5)
         for (row, place), share in np.ndenumerate(shares):
             colour = "white" if share > 0.55 else INK
             axes.text(place, row, f"{100 * share:.0f}", ha="center", va="center", fontsize=6.5, color=colour)
