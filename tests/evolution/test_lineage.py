@@ -42,7 +42,7 @@ def test_the_line_is_bit_by_bit_that_of_the_run(folder, lineage):
 def test_ancestors_among_the_five_best_are_those_kept_in_the_parts(folder, lineage):
     history, n_kept = recorded_history(folder), 0
     for generation, index in enumerate(lineage.indices):
-        place = ranking(history.fitness[generation]).tolist().index(index)
+        place = ranking(history.fitness[generation], Readings()).tolist().index(index)
         if place < 5:
             assert np.array_equal(history.best_genotypes[generation, place], lineage.genotypes[generation])
             n_kept += 1
