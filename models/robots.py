@@ -139,20 +139,20 @@ ICUB = Robot(
     # 10 mm to the left of the point; when S2 meets the disc of 5 cm, the cylinder's centre is 10 mm to the
     # right of it, and so 20 mm, its radius, from them. The hand's lowest place is 20 mm below the point.
     hand_offset=(0.0744, 0.0270, -0.0288),
-    base_position=(-0.0968, -0.2966, 0.1205),
+    base_position=(-0.0859, -0.3246, 0.1206),
     base_yaw=-pi / 2,  # the iCub of the URDF faces -x
     plane=PlaneMap(
-        scale=0.002,
+        scale=0.0018,
         hand_height=0.035,
         lift=0.055,
         lift_range=(10.0, 30.0),
         heading_range=(-pi / 12, 17 * pi / 18),
     ),
     posture=Posture(
-        rest=(-0.049, 0.318, -0.254, -1.667, 1.260, 0.268, 0.985, 0.095, -0.192, -0.046),
-        weights=(0.0829, 0.146, 0.0786, 0.00296, 0.107, 0.0291, 0.157, 0.0535, 0.0418, 0.456),
-        heading_weight=0.234,
-        level_weight=0.54,
+        rest=(-0.031, 0.353, -0.162, -1.659, 1.227, 0.272, 0.957, 0.164, -0.199, 0.008),
+        weights=(0.0969, 0.133, 0.0791, 0.00359, 0.0759, 0.0258, 0.12, 0.0552, 0.0448, 0.548),
+        heading_weight=0.308,
+        level_weight=0.61,
         roll=pi / 3,
         inertia=0.7,
     ),
@@ -161,9 +161,9 @@ ICUB = Robot(
     fixed={
         "neck_pitch": -0.15,
         "neck_yaw": -0.35,
-        "l_shoulder_pitch": 0.1,
+        "l_shoulder_pitch": 0.5,
         "l_shoulder_roll": 0.3,
-        "l_elbow": 0.4,
+        "l_elbow": 0.9,
     },
     appearance=ICUB_APPEARANCE,
     limits=ICUB_LIMITS,

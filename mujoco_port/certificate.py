@@ -114,7 +114,7 @@ def certify(robot: Robot, *, step_deg: float = STEP_DEG) -> Certificate:
         step_deg: Widest step of the grid [deg]; the walks' steps are those of the 2D world in any case.
 
     Raises:
-        ValueError: If `step_deg` is not positive.
+        ValueError: If `step_deg` is not positive, or nothing at all is reached.
     """
     if not step_deg > 0.0:
         raise ValueError(f"a step of {step_deg:g} degrees leads nowhere; give a positive one, at most 2.9")
@@ -140,6 +140,11 @@ def certify(robot: Robot, *, step_deg: float = STEP_DEG) -> Certificate:
         angles[walk, i, j] = posture
         for name, value in _measure(kinematics, clearance, posture, alpha[i], beta[j]).items():
             result[name][walk, i, j] = value
+    if not np.isfinite(result["error"]).any():
+        raise ValueError(
+            f"at {robot.plane.scale:g} m/cm '{robot.name}' reaches nothing of the workspace; "
+            "choose a smaller scale"
+        )
     return Certificate(alpha=alpha, beta=beta, angles=angles, scale=robot.plane.scale, **result)
 
 

@@ -64,7 +64,13 @@ def _subtitle(certificate: Certificate) -> str:
 
 
 def _layers(certificate: Certificate) -> list[Layer]:
-    least, most = np.nanmin, np.nanmax
+
+    def least(values: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+        return np.fmin.reduce(values, axis=axis)  # of what was reached, without a word about the rest
+
+    def most(values: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+        return np.fmax.reduce(values, axis=axis)
+
     return [
         Layer("distance to the table", "mm", 1e3 * least(certificate.to_table, axis=0), True),
         Layer("distance to itself", "mm", 1e3 * least(certificate.to_itself, axis=0), True),

@@ -1,7 +1,7 @@
 """How far a robot stays from the table and from itself, by the geometry of its MuJoCo model.
 
 MuJoCo measures between the convex hulls of the shown meshes, so a gap it tells is there in full. A shoulder
-lies in a hollow of the chest, though: where hulls overlap, the meshes themselves are asked, with coal.
+lies in a hollow of the chest, though: where hulls come near, the meshes themselves are asked, with coal.
 """
 
 from __future__ import annotations
@@ -19,9 +19,13 @@ from models.build import ROBOT_PREFIX, build_model
 from models.robots import Robot
 
 TABLE: Final = "table"
-# Fewer joints than these between two links: their hulls overlap whatever the posture, and it is the joints'
-# limits that keep the links apart. A shoulder is three joints in one place.
+# Pairs of links that are not asked about. With fewer joints between them their hulls overlap whatever the
+# posture; and links that are hardly apart in most postures are parts of one joint, as the shoulder's ball and
+# the hollow of the chest it lies in. It is the joints' limits that keep both kinds apart.
 JOINTS_BETWEEN: Final = 3
+HARDLY_APART: Final = 0.005  # [m], median over postures; meshes are thinned to some 2 mm
+N_POSTURES: Final = 41  # random ones within the joint limits
+NEAR: Final = 0.005  # [m], between hulls; then meshes are asked
 FARTHEST: Final = 0.25  # [m]; more than this is told as this, which saves most of the work
 
 
@@ -44,6 +48,7 @@ class Clearance:
             if _joints_between(model, one, other) >= JOINTS_BETWEEN
             for pair in product(_meshes(model, one), _meshes(model, other))
         ]
+        self._to_itself = self._usually_apart(self._to_itself, robot)
 
     def stand(self, position: Sequence[float]) -> None:
         """Put the robot's root at a position [3] in [m] in the world."""
@@ -54,8 +59,7 @@ class Clearance:
 
         A negative gap tells of an overlap; it is the depth of the hulls in each other.
         """
-        self._data.qpos[self._addresses] = angles
-        mujoco.mj_kinematics(self._model, self._data)
+        self._place(angles)
         return self._least(self._to_table)[0], self._least(self._to_itself)[0]
 
     def nearest(self, angles: NDArray[np.float64]) -> tuple[str, str]:
@@ -64,17 +68,35 @@ class Clearance:
         to_table, to_itself = self._least(self._to_table)[1], self._least(self._to_itself)[1]
         return self._link(to_table[0]), f"{self._link(to_itself[0])}-{self._link(to_itself[1])}"
 
+    def _usually_apart(self, pairs: list[tuple[int, int]], robot: Robot) -> list[tuple[int, int]]:
+        """Those pairs that are not parts of one joint."""
+        ranges = np.array([self._model.joint(ROBOT_PREFIX + name).range for name in robot.joints])
+        gaps = []
+        for angles in np.random.default_rng(0).uniform(ranges[:, 0], ranges[:, 1], (N_POSTURES, len(ranges))):
+            self._place(angles)
+            gaps.append([self._gap(pair, FARTHEST) for pair in pairs])
+        apart = np.median(gaps, axis=0) > HARDLY_APART
+        return [pair for pair, kept in zip(pairs, apart, strict=True) if kept]
+
+    def _place(self, angles: NDArray[np.float64]) -> None:
+        self._data.qpos[self._addresses] = angles
+        mujoco.mj_kinematics(self._model, self._data)
+
     def _least(self, pairs: list[tuple[int, int]]) -> tuple[float, tuple[int, int]]:
         """The least gap of all pairs of geoms, and which pair it is."""
         least, nearest = FARTHEST, pairs[0]
         for pair in pairs:
-            # What is further than the least so far need not be known exactly.
-            gap = mujoco.mj_geomDistance(self._model, self._data, *pair, least, None)
-            if gap < min(least, 0.0) and all(self._model.geom_dataid[geom] >= 0 for geom in pair):
-                gap = self._gap_of_meshes(*pair) or gap
+            gap = self._gap(pair, least)
             if gap < least:
                 least, nearest = gap, pair
         return least, nearest
+
+    def _gap(self, pair: tuple[int, int], limit: float) -> float:
+        """The gap [m] of two geoms, exact below `limit`; if they meet, minus the overlap of their hulls."""
+        gap = mujoco.mj_geomDistance(self._model, self._data, *pair, limit, None)
+        if gap < NEAR and all(self._model.geom_dataid[geom] >= 0 for geom in pair):
+            gap = self._gap_of_meshes(*pair) or min(gap, 0.0)
+        return gap
 
     def _gap_of_meshes(self, one: int, other: int) -> float:
         """The gap [m] between the surfaces of two meshes; 0 if they meet."""

@@ -107,18 +107,13 @@ def search_with_progress(robot: Robot, *, evaluations: int, seed: int) -> Robot:
 
 def written(robot: Robot) -> str:
     """Give the lines of a robot's record that the search finds, as they stand in `models.robots`."""
-    posture, plane = robot.posture, robot.plane
+    posture = robot.posture
     return "\n".join(
         (
             f"    base_position=({', '.join(f'{x:.4f}' for x in robot.base_position)}),",
-            f"    plane=PlaneMap(scale={plane.scale:g}, ...),",
-            "    posture=Posture(",
             f"        rest=({', '.join(f'{x:.3f}' for x in posture.rest)}),",
             f"        weights=({', '.join(f'{x:.3g}' for x in posture.weights)}),",
             f"        heading_weight={posture.heading_weight:.3g},",
             f"        level_weight={posture.level_weight:.3g},",
-            f"        roll={posture.roll:.4f},",
-            f"        inertia={posture.inertia:g},",
-            "    ),",
         )
     )

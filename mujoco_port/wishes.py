@@ -24,9 +24,16 @@ STRETCHES_DEG: Final = (-30.0, 30.0, 90.0, 150.0, 195.0, 210.0)  # alpha of walk
 # alpha at which walks begin that turn S1 while S2 stretches, and to which side: at the bounds many joints are
 # near their limits at once.
 DIAGONALS_DEG: Final = ((60.0, -1), (30.0, -1), (210.0, -1), (121.0, 1), (150.0, 1), (180.0, 1))
-CHECKED_EVERY: Final = (
-    13  # steps of the walks, and their ends: clearance is costly to measure, and changes slowly
-)
+# Walks into the corner at the left bound, where the hand passes before the body: at a beta to the bound, and
+# along it to the other end of beta.
+CORNER_FROM_DEG: Final = 150.0
+CORNER_BETAS_DEG: Final = (90.0, 45.0)
+CORNER_DEG: Final = (193.0, 35.0)  # least alpha and beta
+# Clearance is costly to measure and changes slowly: it is taken at the ends of walks and every so many steps
+# between, in the corner more often.
+CHECKED_EVERY: Final = 13
+CHECKED_IN_CORNER: Final = 3
+
 
 # Where contacts are made, S2 nearly straight and S1 on a sector, the hand's pose counts this many times.
 COUNTS: Final = 4.0
@@ -37,12 +44,12 @@ SECTORS_DEG: Final = (20.0, 160.0)
 # turns, and so that the soft wishes are of one size, some tenths, when all is well.
 MOST_TILT: Final = np.radians(12.0)
 MOST_TURN: Final = 0.10  # [rad], of a joint in a step; the project promises 0.15
-LEAST_GAPS_M: Final = (0.008, 0.003)  # to the table, and between links: a shoulder lies close in the chest
+LEAST_GAPS_M: Final = (0.008, 0.006)  # to the table, and between links
 LEAST_ROOM: Final = 0.03  # of a joint's range, to its limits
 PRICE_OF_MISS: Final = 3.0  # for each target
 PRICE_OF_TILT: Final = 8.0  # for the mean square [rad^2]
 PRICE_OF_MOST_TILT: Final = 10.0  # for each rad more than wished
-PRICE_OF_HEADING: Final = 3.0  # for the mean square [rad^2], the square cut at 2
+PRICE_OF_HEADING: Final = 10.0  # for the mean square [rad^2], the square cut at 2
 PRICE_OF_GAP: Final = 100.0  # for each m of the largest lack
 PRICE_OF_GAPS: Final = 4e3  # for the mean squared lack [m^2]
 PRICE_OF_TURN: Final = 0.3  # for each rad of the largest turn
@@ -107,7 +114,17 @@ def walks() -> list[tuple[NDArray, NDArray]]:
         _to_and_fro(),
         *((np.full_like(down, alpha), down) for alpha in STRETCHES_DEG),
         *((np.clip(alpha + sign * steps, ALPHA_MIN, ALPHA_MAX), down) for alpha, sign in DIAGONALS_DEG),
+        *(_into_the_corner(beta) for beta in CORNER_BETAS_DEG),
     ]
+
+
+def _into_the_corner(bend: float) -> tuple[NDArray, NDArray]:
+    """One walk at a beta to the left bound, and along it until S2 is straight (or bent, from half bent)."""
+    across = np.append(np.arange(CORNER_FROM_DEG, ALPHA_MAX, TURN_DEG), ALPHA_MAX)
+    end = BETA_MIN if bend == BETA_MAX else BETA_MAX
+    along = np.append(np.arange(bend, end, np.copysign(TURN_DEG, end - bend)), end)[1:]
+    alpha = np.concatenate([across, np.full(len(along), ALPHA_MAX)])
+    return alpha, np.concatenate([np.full(len(across), bend), along])
 
 
 def _to_and_fro() -> tuple[NDArray, NDArray]:
@@ -132,6 +149,7 @@ def walk(
     """Follow one walk [K] in [deg] and add to what was seen; it ends where the arm does not reach."""
     plane = kinematics.robot.plane
     targets, headings = hand_targets(plane, alpha, beta), hand_headings(plane, alpha, beta)
+    corner = (alpha > CORNER_DEG[0]) & (beta > CORNER_DEG[1])
     matters = (beta < STRAIGHT_DEG) & (alpha > SECTORS_DEG[0]) & (alpha < SECTORS_DEG[1])
     posture = None
     for k, (target, heading) in enumerate(zip(targets, headings, strict=True)):
@@ -147,7 +165,7 @@ def walk(
             return
         if before is not None:
             seen.turns.append(float(np.abs(posture - before).max()))
-        if k % CHECKED_EVERY == 0 or k == len(targets) - 1:
+        if k % (CHECKED_IN_CORNER if corner[k] else CHECKED_EVERY) == 0 or k == len(targets) - 1:
             seen.gaps.append(gaps(posture))
         hand = kinematics.forward(posture)
         seen.angles.append(posture)

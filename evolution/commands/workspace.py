@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from models.robots import Robot
 
 NOT_CERTIFIED = 1  # exit code
 
@@ -41,17 +45,21 @@ class Workspace:
         if self.scale is not None:
             if not self.scale > 0.0:
                 raise ValueError(
-                    f"a scale of {self.scale:g} m/cm is no map; give a positive one, such as 0.0018"
+                    f"a scale of {self.scale:g} m/cm is no map; give a positive one, such as 0.002"
                 )
             robot = replace(robot, plane=replace(robot.plane, scale=self.scale))
         return self._search(robot) if self.search else self._certify(robot)
 
-    def _certify(self, robot) -> int:
+    def _certify(self, robot: Robot) -> int:
         from evolution.figures import save_figure
         from evolution.storage import make_folder, write_arrays
         from mujoco_port.certificate import certify
         from mujoco_port.certificate_figure import draw_certificate
 
+        if not self.step_deg > 0.0:
+            raise ValueError(
+                f"a step of {self.step_deg:g} degrees leads nowhere; give a positive one, at most 2.9"
+            )
         make_folder(self.output)
         certificate = certify(robot, step_deg=self.step_deg)
         stem = self.output / f"workspace-{robot.name}"
@@ -64,7 +72,7 @@ class Workspace:
         print(", ".join(str(each) for each in (path, *figures)))
         return NOT_CERTIFIED if certificate.faults() else 0
 
-    def _search(self, robot) -> int:
+    def _search(self, robot: Robot) -> int:
         from mujoco_port.search import search_with_progress, written
 
         best = search_with_progress(robot, evaluations=self.evaluations, seed=self.seed)
