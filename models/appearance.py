@@ -133,8 +133,8 @@ LAMP_RADIUS = 0.0020  # [m]
 
 # Without legs, the robot stands on a column.
 COLUMN = (
-    Ornament("root_link", "cylinder", (0.045,), (0.0, 0.0, -0.02), "leg", to=(0.0, 0.0, -0.88)),
-    Ornament("root_link", "cylinder", (0.16,), (0.0, 0.0, -0.87), "leg", to=(0.0, 0.0, -0.887)),
+    Ornament("root_link", "cylinder", (0.045,), (0.0, 0.0, -0.02), "leg", to=(0.0, 0.0, -0.89)),
+    Ornament("root_link", "cylinder", (0.16,), (0.0, 0.0, -0.877), "leg", to=(0.0, 0.0, -0.8945)),
 )
 
 ICUB_APPEARANCE = Appearance(

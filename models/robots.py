@@ -136,30 +136,30 @@ ICUB = Robot(
     ),
     hand_frame="r_hand_dh_frame",
     # Beside the tip of the little finger. With the roll below, the hand's rightmost places near the tip are
-    # 10 mm to the left of the point; when S2 meets the disc of 5 cm, the cylinder's centre is 10 mm to the
+    # 11 mm to the left of the point; when S2 meets the disc of 5 cm, the cylinder's centre is 9 mm to the
     # right of it, and so 20 mm, its radius, from them. The hand's lowest place is 20 mm below the point.
-    hand_offset=(0.0744, 0.0270, -0.0288),
-    base_position=(-0.0859, -0.3246, 0.1206),
+    hand_offset=(0.0744, 0.0275, -0.0297),
+    base_position=(-0.0669, -0.3216, 0.1287),
     base_yaw=-pi / 2,  # the iCub of the URDF faces -x
     plane=PlaneMap(
         scale=0.0018,
         hand_height=0.035,
         lift=0.055,
-        lift_range=(10.0, 30.0),
+        lift_range=(10.0, 35.0),
         heading_range=(-pi / 12, 17 * pi / 18),
     ),
     posture=Posture(
-        rest=(-0.031, 0.353, -0.162, -1.659, 1.227, 0.272, 0.957, 0.164, -0.199, 0.008),
-        weights=(0.0969, 0.133, 0.0791, 0.00359, 0.0759, 0.0258, 0.12, 0.0552, 0.0448, 0.548),
-        heading_weight=0.308,
-        level_weight=0.61,
+        rest=(-0.115, 0.254, -0.148, -1.667, 1.069, 0.314, 0.992, 0.158, -0.220, 0.041),
+        weights=(0.106, 0.211, 0.0787, 0.00265, 0.126, 0.0273, 0.132, 0.0858, 0.0338, 0.268),
+        heading_weight=0.297,
+        level_weight=0.699,
         roll=pi / 3,
         inertia=0.7,
     ),
     # Nothing of the legs is seen at the table, and they are half of the triangles to be drawn.
     left_out=("l_hip_1", "r_hip_1"),
     fixed={
-        "neck_pitch": -0.15,
+        "neck_pitch": 0.35,
         "neck_yaw": -0.35,
         "l_shoulder_pitch": 0.5,
         "l_shoulder_roll": 0.3,

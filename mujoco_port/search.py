@@ -26,7 +26,7 @@ from mujoco_port.wishes import Cost, Wishes
 PLACE_UNIT: Final = 0.03  # [m], of the root
 REST_UNIT: Final = 0.15  # of a joint's range
 WEIGHT_UNIT: Final = 1.0  # of a weight's natural logarithm
-FIRST_SPREAD: Final = 0.25  # of the search, in these units
+FIRST_SPREAD: Final = 0.1  # of the search, in these units
 
 
 def varied(robot: Robot, kinematics: ArmKinematics, change: NDArray[np.float64]) -> Robot:
