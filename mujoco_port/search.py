@@ -92,10 +92,13 @@ def search_with_progress(robot: Robot, *, evaluations: int, seed: int) -> Robot:
     """Search as `search` does, with a bar on stderr; Ctrl-C ends it with the best record so far."""
     found = [robot]
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True)) as progress:
+    console = Console(stderr=True)
+    with Progress(*columns, console=console) as progress:
         task = progress.add_task(robot.name, total=evaluations)
 
         def tell(done: int, cost: Cost, best: Robot) -> None:
+            if best is not found[-1] and not console.is_terminal:  # a log gets lines in place of a bar
+                console.print(f"{robot.name}: cost {cost.total:.4f} after {done} of {evaluations} records")
             found.append(best)
             progress.update(task, completed=done, description=f"{robot.name}, cost {cost.total:.4f}")
 
