@@ -15,7 +15,8 @@ from rich.table import Table
 
 from arm2d import Condition, Readings, Trials, draw_trials
 from models.robots import get_robot
-from mujoco_port.exertion import Exertion, exertion
+from mujoco_port.exertion import Exertion, exertion, tracking_errors
+from mujoco_port.eyes import geometric_eyes
 from mujoco_port.open_loop import OpenLoop, planar_angles
 from mujoco_port.physical import Lab, instruction_of
 from mujoco_port.physical_rollout import PhysicalRecord, carry_out
@@ -29,7 +30,15 @@ def without_objects(lab: Lab, genotype: np.ndarray, trial: Trials) -> PhysicalRe
     instruction, readings = instruction_of(trial), Readings()
     angles = planar_angles(genotype, instruction, float(trial.alpha[0]), trial.discs[0], readings)
     places = OUT_OF_THE_WAY_M / lab.body.robot.plane.scale
-    return carry_out(lab.body, lab.kinematics, OpenLoop(angles), instruction, places, lambda _: False)
+    return carry_out(
+        lab.body,
+        lab.kinematics,
+        OpenLoop(angles),
+        geometric_eyes(lab.body),
+        instruction,
+        places,
+        lambda _: False,
+    )
 
 
 def main() -> None:
@@ -55,7 +64,7 @@ def main() -> None:
                 else lab.open_loop(genotype, trials[t], readings)[0]
             )
         spent = (time.process_time() - began) / sum(record.steps for record in records) * 250
-        errors = 1e3 * np.concatenate([record.tracking_error for record in records])
+        errors = 1e3 * np.concatenate([tracking_errors(record, lab.kinematics) for record in records])
         depth = 1e3 * max(record.depth.max() for record in records)
         middle, high = np.percentile(errors, [50, 99])
         cells = (f"{middle:.4f}", f"{high:.3f}", f"{errors.max():.3f}", f"{depth:.2f}", f"{spent:.2f}")

@@ -14,6 +14,7 @@ import tyro
 from tyro.conf import subcommand
 
 from arm2d import Readings
+from evolution.commands.agree import Agree
 from evolution.commands.analyse import Analyse
 from evolution.commands.behaviour import BehaviourCommand
 from evolution.commands.classes import Classes
@@ -56,6 +57,7 @@ Command = (
     | LineageCommand
     | Measure
     | Plot
+    | Agree
     | Port
     | PostEvaluate
     | Repair
@@ -128,6 +130,7 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
         | Annotated[Measure, subcommand("measure")]
         | Annotated[Plot, subcommand("plot")]
         | Annotated[Port, subcommand("port")]
+        | Annotated[Agree, subcommand("agree")]
         | Annotated[PostEvaluate, subcommand("postevaluate")]
         | Annotated[Repair, subcommand("repair")]
         | Annotated[Report, subcommand("report")]

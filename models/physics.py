@@ -15,15 +15,20 @@ SHAPE_PREFIX = "touching/"  # of the names of the shapes that meet objects
 SHAPE_GROUP = 3  # not drawn
 TABLE_TOPS = ("top", "right_wing", "left_wing")
 OBJECTS = ("blue", "green", "red")
+EYE = "eye"  # a camera in J1
 # Which shapes meet: objects (1) with everything, the robot's shapes (2) with objects only.
 OBJECT_BIT, ROBOT_BIT = 1, 2
 
 # Sliding friction. Rubber skin of a hand on an object: 1.2 to 1.5. Object on table: smooth plastic on wood.
 HAND_FRICTION = 1.3
-TABLE_FRICTION = 0.4
+# [m], resistance to rolling: the force of a soft skin acts somewhere in the patch that it makes with a
+# cylinder, whose half-width is sqrt(2 radius depth), 7 mm where a cylinder of 20 mm is pressed in by 1.2 mm.
+# Without it cylinders roll off a hand that is not quite square to its way.
+ROLLING_RESISTANCE = 0.008
+TABLE_FRICTION = 0.5
 # A motor pulls like a spring of this natural frequency on the inertia that the joint moves at rest,
 # critically damped: stiff enough to hold the hand, soft enough for steps of 2 ms.
-NATURAL_FREQUENCY = 50.0  # [rad/s]
+NATURAL_FREQUENCY = 66.0  # [rad/s]
 
 
 class NoPhysicsError(ValueError):
@@ -55,6 +60,8 @@ def build_physics_model(robot: Robot) -> mujoco.MjModel:
         spec.geom(name).contype = OBJECT_BIT
         spec.geom(name).conaffinity = OBJECT_BIT | ROBOT_BIT
     add_motors(spec, robot, robot.limits)
+    middle = spec.geom(OBJECTS[0]).size[1]  # of an object that stands on the table
+    spec.worldbody.add_camera(name=EYE, pos=[0.0, 0.0, middle])
     return spec.compile()
 
 
@@ -85,7 +92,8 @@ def add_shape(spec: mujoco.MjSpec, shape: ContactShape) -> None:
         contype=ROBOT_BIT,
         conaffinity=0,
         priority=1,  # the hand's friction holds, not the larger of both
-        friction=[HAND_FRICTION, 0.005, 0.0001],
+        friction=[HAND_FRICTION, 0.005, ROLLING_RESISTANCE],
+        condim=6,
         **place,
     )
 

@@ -32,14 +32,17 @@ class PlaneMap:
         hand_height: [m], height of the hand's reference point above the table top while S2 is straight.
         lift: [m], how much higher it is while S2 is bent: above the objects, which a bent S2 passes by.
         lift_range: [deg], beta at which the hand begins to rise, and from which on it is lifted fully.
-        heading_range: [rad], the hand points along the radial direction from J1 but turns no further
-            than this: beyond, the arm would have to fold behind the robot's side.
+        heading_lead: [rad], how much further to the right than the radial direction from J1 the hand points:
+            a pushed object is some degrees ahead of the hand, and is to be pushed along its own arc.
+        heading_range: [rad], the hand turns no further than this: beyond, the arm would have to fold behind
+            the robot's side.
     """
 
     scale: float
     hand_height: float
     lift: float
     lift_range: tuple[float, float]
+    heading_lead: float
     heading_range: tuple[float, float]
 
 
@@ -138,21 +141,22 @@ ICUB = Robot(
     # Beside the tip of the little finger. With the roll below, the hand's rightmost places near the tip are
     # 11 mm to the left of the point; when S2 meets the disc of 5 cm, the cylinder's centre is 9 mm to the
     # right of it, and so 20 mm, its radius, from them. The hand's lowest place is 20 mm below the point.
-    hand_offset=(0.0744, 0.0275, -0.0297),
-    base_position=(-0.0669, -0.3216, 0.1287),
+    hand_offset=(0.0684, 0.0260, -0.0271),
+    base_position=(-0.0763, -0.3161, 0.1252),
     base_yaw=-pi / 2,  # the iCub of the URDF faces -x
     plane=PlaneMap(
         scale=0.0018,
-        hand_height=0.035,
-        lift=0.055,
-        lift_range=(10.0, 35.0),
-        heading_range=(-pi / 12, 17 * pi / 18),
+        hand_height=0.029,
+        lift=0.061,
+        lift_range=(24.0, 43.0),
+        heading_lead=pi / 30,
+        heading_range=(-pi / 6, 17 * pi / 18),
     ),
     posture=Posture(
-        rest=(-0.115, 0.254, -0.148, -1.667, 1.069, 0.314, 0.992, 0.158, -0.220, 0.041),
-        weights=(0.106, 0.211, 0.0787, 0.00265, 0.126, 0.0273, 0.132, 0.0858, 0.0338, 0.268),
-        heading_weight=0.297,
-        level_weight=0.699,
+        rest=(-0.121, 0.215, -0.155, -1.667, 1.002, 0.429, 0.946, 0.161, 0.061, 0.009),
+        weights=(0.0958, 0.148, 0.0755, 0.00323, 0.102, 0.0264, 0.0953, 0.0835, 0.053, 0.387),
+        heading_weight=0.831,
+        level_weight=0.588,
         roll=pi / 3,
         inertia=0.7,
     ),

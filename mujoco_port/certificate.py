@@ -1,13 +1,14 @@
 """The workspace certificate: what a robot's arm does everywhere the 2D arm can be.
 
-A grid of all (alpha, beta) is walked twice, once stretching and bending at every alpha, once turning from
-bound to bound at every beta, always in steps no wider than one of the 2D world: the posture at a place
-depends a little on the way there, and what is told of a place is the worse of both walks.
+A grid of all (alpha, beta) is walked four times, once stretching and bending at every alpha, once turning
+from bound to bound at every beta, and both with the hand raised throughout, as it is above objects; always
+in steps no wider than one of the 2D world. The posture at a place depends a little on the way there, and
+what is told of a place is the worst of all walks.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -120,25 +121,26 @@ def certify(robot: Robot, *, step_deg: float = STEP_DEG) -> Certificate:
         raise ValueError(f"a step of {step_deg:g} degrees leads nowhere; give a positive one, at most 2.9")
     alpha, beta = _axis(ALPHA_MIN, ALPHA_MAX, step_deg), _axis(BETA_MIN, BETA_MAX, step_deg)
     n_joints, shape = len(robot.joints), (len(alpha), len(beta))
-    kinematics, clearance = ArmKinematics(robot), Clearance(robot)
-    angles = np.full((2, *shape, n_joints), np.nan)
-    places = [_along_beta(*shape), _along_alpha(*shape)]
+    low, high = ArmKinematics(robot), ArmKinematics(raised(robot))
+    arms, clearance = (low, low, high, high), Clearance(robot)
+    angles = np.full((len(arms), *shape, n_joints), np.nan)
+    places = [_along_beta(*shape), _along_alpha(*shape)] * 2
     steps = [(walk, *place) for walk, places_of_walk in enumerate(places) for place in places_of_walk]
     result = {
-        name: np.full((2, *shape), np.nan)
+        name: np.full((len(arms), *shape), np.nan)
         for name in ("error", "room", "to_table", "to_itself", "turn", "roll_error", "heading_error")
     }
     before: tuple[NDArray, float, float] | None = None
     for walk, i, j in track(steps, f"workspace of {robot.name}"):
         if (i, j) == places[walk][0]:
             before = None
-        posture = _arrive(kinematics, before, alpha[i], beta[j])
+        posture = _arrive(arms[walk], before, alpha[i], beta[j])
         if posture is None:
             result["error"][walk, i, j] = np.inf
             continue
         before = posture, alpha[i], beta[j]
         angles[walk, i, j] = posture
-        for name, value in _measure(kinematics, clearance, posture, alpha[i], beta[j]).items():
+        for name, value in _measure(arms[walk], clearance, posture, alpha[i], beta[j]).items():
             result[name][walk, i, j] = value
     if not np.isfinite(result["error"]).any():
         raise ValueError(
@@ -146,6 +148,11 @@ def certify(robot: Robot, *, step_deg: float = STEP_DEG) -> Certificate:
             "choose a smaller scale"
         )
     return Certificate(alpha=alpha, beta=beta, angles=angles, scale=robot.plane.scale, **result)
+
+
+def raised(robot: Robot) -> Robot:
+    """The same robot with its hand raised at every beta."""
+    return replace(robot, plane=replace(robot.plane, lift_range=(BETA_MIN - 2.0, BETA_MIN - 1.0)))
 
 
 def _axis(first: float, last: float, step: float) -> NDArray[np.float64]:

@@ -38,7 +38,7 @@ class ContactSensors:
         names = [model.geom(geom).name for geom in range(model.ngeom)]
         self._shape = np.array([name.startswith(SHAPE_PREFIX) for name in names])
         self._of_hand = self._shape & (model.geom_bodyid == hand)
-        self._middle = -body.robot.hand_offset[1]  # [m], of the hand, seen from its reference point
+        self._middle = -np.array(body.robot.hand_offset)  # [m], of the hand, seen from its reference point
 
     def read(self) -> tuple[NDArray[np.uint8], float]:
         """How each object is touched right now.
@@ -65,8 +65,10 @@ class ContactSensors:
         return touched, depth
 
     def _side(self, geom: int, place: NDArray[np.float64]) -> int:
-        """The side of the hand on which a place [3] in [m] in the world lies."""
+        """The side of the hand on which a place [3] in [m] in the world lies, seen along the fingers."""
         if not self._of_hand[geom]:
             return ARM
-        across = (place - self._body.hand) @ self._body.hand_rotation[:, 1]
-        return RIGHT_SIDE if across > self._middle else LEFT_SIDE
+        rotation = self._body.hand_rotation
+        ahead = rotation[:, 0]
+        x, y, _ = place - self._body.hand - rotation @ self._middle
+        return RIGHT_SIDE if ahead[1] * x - ahead[0] * y > 0.0 else LEFT_SIDE

@@ -48,7 +48,7 @@ class Body:
         self._speeds = [joint.dofadr[0] for joint in joints]
         self._objects = [self.model.joint(name).qposadr[0] for name in OBJECTS]
         self._heights = [self.model.body(name).pos[2] for name in OBJECTS]
-        self._object_ids = [self.model.body(name).id for name in OBJECTS]
+        self._places = np.add.outer(self._objects, np.arange(7))
         self.hand_site = self.model.site(HAND_SITE).id
         self._stiffness = self.model.actuator_gainprm[:, 0].copy()
         self._damping = -self.model.actuator_biasprm[:, 2]
@@ -82,19 +82,9 @@ class Body:
         return self.data.site_xmat[self.hand_site].reshape(3, 3)
 
     @property
-    def objects(self) -> NDArray[np.float64]:
-        """Centres of the objects, [3, 3] in [m] in the world: blue, green, red."""
-        return self.data.xpos[self._object_ids]
-
-    @property
-    def object_turns(self) -> NDArray[np.float64]:
-        """How the objects are turned, [3, 4], quaternions."""
-        return self.data.xquat[self._object_ids]
-
-    @property
-    def uprightness(self) -> NDArray[np.float64]:
-        """How far each object stands upright, [3]: the cosine of its tilt."""
-        return self.data.xmat[self._object_ids, 8]
+    def places(self) -> NDArray[np.float64]:
+        """Of the objects, [3, 7]: centre in [m] and quaternion; blue, green, red."""
+        return self.data.qpos[self._places]
 
     def start(self, angles: NDArray[np.float64], objects: NDArray[np.float64]) -> None:
         """Stand still at joint angles [J] in [rad], the objects' centres on the table at [3, 2] in [m]."""

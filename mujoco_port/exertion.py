@@ -35,6 +35,12 @@ class Exertion:
         )
 
 
+def tracking_errors(record: PhysicalRecord, kinematics: ArmKinematics) -> NDArray[np.float64]:
+    """How far the hand is from where the interpolated joints would have it, [N] in [m]."""
+    wanted = np.array([kinematics.forward(angles).position for angles in record.joints])
+    return np.linalg.norm(record.hand - wanted, axis=-1)
+
+
 def exertion(record: PhysicalRecord, kinematics: ArmKinematics, limits: MotorLimits) -> Exertion:
     """What a trial asked of its robot."""
     middle, half = (kinematics.upper + kinematics.lower) / 2, (kinematics.upper - kinematics.lower) / 2

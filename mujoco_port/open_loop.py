@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from arm2d import Instruction, Readings
 from arm2d import constants as c
 from arm2d.reference import controller, sense, touch
-from mujoco_port.physical_rollout import Angles
+from mujoco_port.physical_rollout import Angles, PhysicalRecord
 
 
 def planar_angles(
@@ -57,6 +57,7 @@ class OpenLoop:
         """The start and the first step."""
         return next(self._angles), next(self._angles)
 
-    def after(self) -> Angles:
-        """The step after."""
+    def after(self, so_far: PhysicalRecord, seen: NDArray[np.float64]) -> Angles:
+        """The step after, whatever has become of the robot so far, and whatever it sees."""
+        del so_far, seen
         return next(self._angles)

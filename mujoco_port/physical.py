@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 
 from arm2d import ActionWord, Instruction, ObjectWord, Readings, Trials
 from models.robots import Robot
+from mujoco_port.closed_loop import ClosedLoop
 from mujoco_port.control import Body
+from mujoco_port.eyes import geometric_eyes
 from mujoco_port.kinematics import ArmKinematics
 from mujoco_port.open_loop import OpenLoop, planar_angles
-from mujoco_port.physical_rollout import PhysicalRecord, Pilot, carry_out
+from mujoco_port.physical_rollout import Eyes, PhysicalRecord, Pilot, carry_out
 from mujoco_port.verdict import Verdict, judge
 
 
@@ -53,14 +55,38 @@ class Lab:
         angles = planar_angles(genotype, instruction, float(trial.alpha[0]), discs, readings)
         return self.carry_out(OpenLoop(angles), instruction, discs, readings)
 
+    def closed_loop(
+        self, genotype: NDArray[np.float64], trial: Trials, readings: Readings, eyes: Eyes | None = None
+    ) -> tuple[PhysicalRecord, Verdict]:
+        """Let the agent live in the robot.
+
+        Args:
+            genotype: [84].
+            trial: A batch of one.
+            readings: How the paper is understood.
+            eyes: What it sees; without, it knows where the objects are.
+
+        Raises:
+            OutOfReachError: If the robot cannot reach a place.
+        """
+        instruction, alpha = instruction_of(trial), float(trial.alpha[0])
+        pilot = ClosedLoop(genotype, instruction, alpha, readings, self.body)
+        return self.carry_out(pilot, instruction, trial.discs[0], readings, eyes)
+
     def carry_out(
-        self, pilot: Pilot, instruction: Instruction, discs: NDArray[np.float64], readings: Readings
+        self,
+        pilot: Pilot,
+        instruction: Instruction,
+        discs: NDArray[np.float64],
+        readings: Readings,
+        eyes: Eyes | None = None,
     ) -> tuple[PhysicalRecord, Verdict]:
         """Carry out a trial under anybody's orders, until its verdict is certain."""
         record = carry_out(
             self.body,
             self.kinematics,
             pilot,
+            geometric_eyes(self.body) if eyes is None else eyes,
             instruction,
             discs,
             lambda so_far: judge(so_far, readings).certain,

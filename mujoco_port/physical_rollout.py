@@ -11,20 +11,28 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Instruction
 from arm2d.constants import MAX_STEPS
-from mujoco_port.contacts import ContactSensors
+from mujoco_port.contacts import RIGHT_SIDE, ContactSensors
 from mujoco_port.control import Body
 from mujoco_port.kinematics import ArmKinematics
+from mujoco_port.stepping_over import stepping_over
 from mujoco_port.trajectory import motion_between
-from mujoco_port.workspace import hand_headings, hand_targets, on_table
+from mujoco_port.workspace import hand_headings, hand_targets, on_table, tip_in_plane
 
 Angles = tuple[float, float]  # alpha and beta in [deg]
+# Eyes look along alpha [deg] and give where each object seems to be, [3, 2] in [cm] of the 2D world.
+Eyes = Callable[[float], NDArray[np.float64]]
+# A 2D trial ends after 250 steps. A step there counts by its last moment, so 100 good ones may be all but a
+# step of 10 s, and in closed loop orders come a step late: the robot has half a second more to be judged.
+MOST_STEPS: Final = MAX_STEPS + 5
+CLEAR_HEIGHT_M: Final = 0.068  # of the hand's point: its lowest place is above all objects
+MOST_RISE: Final = 0.4  # of the way up, or down, in a control step
 
 
 class Pilot(Protocol):
@@ -34,8 +42,16 @@ class Pilot(Protocol):
         """Where it stands at the start, and where after the first control step."""
         ...
 
-    def after(self) -> Angles | None:
-        """Where it is to be one control step after the one that begins now; None at the end of the orders."""
+    def after(self, so_far: PhysicalRecord, seen: NDArray[np.float64]) -> Angles | None:
+        """Where it is to be after the control step that follows the one that begins now.
+
+        Args:
+            so_far: The trial up to now, without a row at its start.
+            seen: [3, 2] in [cm] of the 2D world, where the robot's eyes see the objects now.
+
+        Returns:
+            None at the end of the orders.
+        """
         ...
 
 
@@ -53,10 +69,8 @@ class PhysicalRecord:
         velocities: [N, J] in [rad/s], measured.
         torques: [N, J] in [N m], of the motors.
         hand: [N, 3] in [m], measured.
-        wanted: [N, 3] in [m], where the interpolated joints would have the hand.
-        objects: [N, 3, 3] in [m], centres.
-        turns: [N, 3, 4], quaternions of the objects.
-        upright: [N, 3], cosine of each object's tilt.
+        joints: [N, J] in [rad], where the interpolated path has them.
+        places: [N, 3, 7], of the objects: centre in [m] and quaternion.
         contact: [N, 3], bits of `mujoco_port.contacts`.
         depth: [N] in [m], how deep the deepest contact of the robot is pressed in.
     """
@@ -70,10 +84,8 @@ class PhysicalRecord:
     velocities: NDArray[np.float64]
     torques: NDArray[np.float64]
     hand: NDArray[np.float64]
-    wanted: NDArray[np.float64]
-    objects: NDArray[np.float64]
-    turns: NDArray[np.float64]
-    upright: NDArray[np.float64]
+    joints: NDArray[np.float64]
+    places: NDArray[np.float64]
     contact: NDArray[np.uint8]
     depth: NDArray[np.float64]
 
@@ -83,25 +95,32 @@ class PhysicalRecord:
         return len(self.orders) - 1
 
     @property
-    def tracking_error(self) -> NDArray[np.float64]:
-        """[N] in [m], from where the hand is to where it should be."""
-        return np.linalg.norm(self.hand - self.wanted, axis=-1)
+    def objects(self) -> NDArray[np.float64]:
+        """[N, 3, 3] in [m], centres of the objects."""
+        return self.places[..., :3]
+
+    @property
+    def upright(self) -> NDArray[np.float64]:
+        """[N, 3], the cosine of each object's tilt."""
+        return 1.0 - 2.0 * (self.places[..., 4] ** 2 + self.places[..., 5] ** 2)
 
 
 def carry_out(
     body: Body,
     kinematics: ArmKinematics,
     pilot: Pilot,
+    eyes: Eyes,
     instruction: Instruction,
     discs: NDArray[np.float64],
     ended: Callable[[PhysicalRecord], bool],
 ) -> PhysicalRecord:
-    """Let a robot carry out a trial until it has ended, the orders end, or 250 control steps are over.
+    """Let a robot carry out a trial until it has ended, the orders end, or 255 control steps are over.
 
     Args:
         body: The robot; where it was before does not matter.
         kinematics: Its inverse kinematics.
         pilot: Who gives the orders.
+        eyes: How the robot sees objects, so as not to come down on one.
         instruction: What is asked; only kept.
         discs: [3, 2] in [cm], centres of blue, green and red at the start.
         ended: Asked after every control step.
@@ -111,24 +130,29 @@ def carry_out(
     """
     plane = body.robot.plane
 
-    def solve(order: Angles, before: NDArray[np.float64] | None) -> NDArray[np.float64]:
+    def solve(order: Angles, before: NDArray[np.float64] | None, raised: float) -> NDArray[np.float64]:
         alpha, beta = np.array(order[0]), np.array(order[1])
-        target, heading = hand_targets(plane, alpha, beta), float(hand_headings(plane, alpha, beta))
+        target, heading = hand_targets(plane, alpha, beta, raised), float(hand_headings(plane, alpha, beta))
         return (
             kinematics.settle(target, heading) if before is None else kinematics.step(before, target, heading)
         )
 
     orders = list(pilot.first())
-    joints = [solve(orders[0], None)]
-    joints.append(solve(orders[1], joints[0]))
+    joints = [solve(orders[0], None, 0.0)]
+    joints.append(solve(orders[1], joints[0], 0.0))
     joints.insert(0, joints[0])  # it has been standing still
     body.start(joints[0], on_table(plane, discs))
-    log = _Log(body, kinematics, instruction, plane.scale)
-    for step in range(MAX_STEPS):
-        order = pilot.after()
+    log = _Log(body, instruction, plane.scale)
+    record = log.record(orders[:1])
+    raised = 0.0
+    for step in range(MOST_STEPS):
+        seen = eyes(orders[step][0])
+        order = pilot.after(record, seen)
         last = order is None
         orders.append(orders[-1] if order is None else order)
-        joints.append(joints[-1] if order is None else solve(order, joints[-1]))
+        wanted = above_objects(body, on_table(plane, seen), record, orders[-1])
+        raised += float(np.clip(wanted - raised, -MOST_RISE, MOST_RISE))
+        joints.append(joints[-1] if order is None else solve(order, joints[-1], raised))
         before = max(step - 1, 0)
         directions = np.array([orders[before], *orders[step : step + 3]])
         log.take(directions, np.array(joints[-4:]))
@@ -138,14 +162,30 @@ def carry_out(
     return record
 
 
+def above_objects(body: Body, objects: NDArray[np.float64], record: PhysicalRecord, order: Angles) -> float:
+    """How far the hand has to stay above objects [3, 2] in [m] that it does not push, from 0 to 1.
+
+    A hand that is above the objects already must not come down on one that is below it by the time of the
+    order, two control steps from now; a low one pushes what it will meet.
+    """
+    pushed = (record.contact[-body.steps_per_turn :] & RIGHT_SIDE).any(axis=0)
+    left, ahead = objects[~pushed], body.hand_rotation[:, 0]
+    now = float(stepping_over(body.hand[:2], np.arctan2(ahead[1], ahead[0]), left))
+    if body.hand[2] < CLEAR_HEIGHT_M:
+        return now
+    plane = body.robot.plane
+    then = stepping_over(on_table(plane, tip_in_plane(*order)), hand_headings(plane, *order), left)
+    return max(now, float(then))
+
+
 class _Log:
     """Moves the body and keeps what it measures, physics step by physics step."""
 
-    def __init__(self, body: Body, kinematics: ArmKinematics, instruction: Instruction, scale: float) -> None:
-        self._body, self._kinematics, self._skin = body, kinematics, ContactSensors(body)
+    def __init__(self, body: Body, instruction: Instruction, scale: float) -> None:
+        self._body, self._skin = body, ContactSensors(body)
         self._asked = instruction, scale
         self._filled = 0
-        n, joints = MAX_STEPS * body.steps_per_turn, len(body.angles)
+        n, joints = MOST_STEPS * body.steps_per_turn, len(body.angles)
         self._kept = {
             "alpha": np.empty(n),
             "still": np.empty(n, bool),
@@ -153,10 +193,8 @@ class _Log:
             "velocities": np.empty((n, joints)),
             "torques": np.empty((n, joints)),
             "hand": np.empty((n, 3)),
-            "wanted": np.empty((n, 3)),
-            "objects": np.empty((n, 3, 3)),
-            "turns": np.empty((n, 3, 4)),
-            "upright": np.empty((n, 3)),
+            "joints": np.empty((n, joints)),
+            "places": np.empty((n, 3, 7)),
             "contact": np.empty((n, 3), np.uint8),
             "depth": np.empty(n),
         }
@@ -173,16 +211,14 @@ class _Log:
         motion = motion_between(joints, count)
         kept["alpha"][rows] = motion_between(directions, count).angles[:, 0]
         kept["still"][rows] = directions[1, 0] == directions[2, 0]
-        kept["wanted"][rows] = [self._kinematics.forward(angles).position for angles in motion.angles]
+        kept["joints"][rows] = motion.angles
         for row, set_point in enumerate(body.set_points(motion), start=first):
             body.advance(set_point)
             kept["angles"][row] = body.angles
             kept["velocities"][row] = body.velocities
             kept["torques"][row] = body.torques
             kept["hand"][row] = body.hand
-            kept["objects"][row] = body.objects
-            kept["turns"][row] = body.object_turns
-            kept["upright"][row] = body.uprightness
+            kept["places"][row] = body.places
             kept["contact"][row], kept["depth"][row] = self._skin.read()
         self._filled += count
 

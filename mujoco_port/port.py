@@ -37,7 +37,7 @@ def port_trial(record: TrialRecord, output: Path | str, *, robot: str = "icub") 
         OutOfReachError: If the robot cannot follow.
         OSError: If the file cannot be written.
     """
-    path, chosen = _writable(Path(output), ".mp4"), get_robot(robot)
+    path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
     choose_back_end()
     from mujoco_port.video import write_video
 
@@ -64,7 +64,7 @@ def port_gallery(
     """
     if len(records) != N_GALLERY:
         raise ValueError(f"a gallery has {N_GALLERY} trials, not {len(records)}; give one per instruction")
-    path, chosen = _writable(Path(output), ".mp4"), get_robot(robot)
+    path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
     choose_back_end()
     from mujoco_port.gallery import write_gallery
 
@@ -73,7 +73,7 @@ def port_gallery(
 
 def port_picture(record: TrialRecord, step: int, output: Path | str, *, robot: str = "icub") -> Path:
     """Write one moment of a trial on a robot as a PNG; arguments and errors as `port_trial`."""
-    path, chosen = _writable(Path(output), ".png"), get_robot(robot)
+    path, chosen = writable(Path(output), ".png"), get_robot(robot)
     choose_back_end()
     import imageio.v3 as imageio
 
@@ -83,7 +83,7 @@ def port_picture(record: TrialRecord, step: int, output: Path | str, *, robot: s
     return path
 
 
-def _writable(path: Path, suffix: str) -> Path:
+def writable(path: Path, suffix: str) -> Path:
     """The path, if a file of this kind can be written there: told before a minute of drawing."""
     if path.suffix.lower() != suffix:
         raise ValueError(f"{path} does not end in {suffix}; choose such a name")

@@ -12,7 +12,8 @@ from arm2d import TrialRecord
 from arm2d.constants import DT
 from models.robots import Robot
 from mujoco_port.kinematics import ArmKinematics
-from mujoco_port.workspace import hand_headings, hand_targets, on_table
+from mujoco_port.stepping_over import stepping_over
+from mujoco_port.workspace import hand_headings, hand_targets, on_table, tip_in_plane
 
 # Postures between two control steps: the arm of the 2D world is interpolated, and solved for anew.
 FRAMES_PER_STEP: Final = 2.5  # 25 in a second
@@ -54,9 +55,13 @@ def roll_out(record: TrialRecord, robot: Robot, frames_per_step: float = FRAMES_
     """
     steps = moments(record.steps, frames_per_step)
     alpha, beta = _at(record.alpha, steps), _at(record.beta, steps)
-    targets = hand_targets(robot.plane, alpha, beta)
-    angles = ArmKinematics(robot).follow(targets, hand_headings(robot.plane, alpha, beta))
-    return Rollout(steps, angles, targets, on_table(robot.plane, _at(record.discs, steps)))
+    objects, headings = (
+        on_table(robot.plane, _at(record.discs, steps)),
+        hand_headings(robot.plane, alpha, beta),
+    )
+    tip = on_table(robot.plane, tip_in_plane(alpha, beta))
+    targets = hand_targets(robot.plane, alpha, beta, stepping_over(tip, headings, objects))
+    return Rollout(steps, ArmKinematics(robot).follow(targets, headings), targets, objects)
 
 
 def moments(n_steps: int, frames_per_step: float) -> NDArray[np.float64]:

@@ -19,7 +19,7 @@ class Take:
 
     Attributes:
         record: The trial in the planar world, shown beside the robot.
-        steps: [F], moments in control steps of that trial, rising; the last one is its end.
+        steps: [F], moments in control steps of that trial, rising; the last one is the robot's end.
         angles: [F, J] in [rad].
         objects: [F, 3, 2] in [m], places on the table where they stand upright; or [F, 3, 7], position in
             [m] and quaternion.

@@ -57,7 +57,7 @@ def judge(record: PhysicalRecord, readings: Readings) -> Verdict:
     others = np.delete(record.contact, target, axis=1).any(axis=1)
     n = len(record.alpha)
     fault = int(np.argmax(others)) if others.any() else n
-    good = closed(_is_good(record, readings), _gap(record))
+    good = _is_good(record, readings)
     progress = arcs(good, bearings(record)[:, target]) if action is ActionWord.MOVE else lengths(good)
     goal = readings.move_angle if action is ActionWord.MOVE else GOOD_TIME_S
     reached = progress >= goal - 1e-9
@@ -106,7 +106,8 @@ def _is_good(record: PhysicalRecord, readings: Readings) -> NDArray[np.bool_]:
     """The moments that count, [N]."""
     action, target = record.instruction.action, int(record.instruction.object)
     off = np.abs(bearings(record)[:, target] - record.alpha)
-    touched, right = record.contact[:, target] != 0, (record.contact[:, target] & RIGHT_SIDE) != 0
+    touched = record.contact[:, target] != 0
+    right = closed((record.contact[:, target] & RIGHT_SIDE) != 0, round(LONGEST_BREAK_S / PHYSICS_STEP))
     if action is ActionWord.INDICATE:
         return (off < readings.indicate_cone) & ~touched
     if action is ActionWord.TOUCH:
@@ -114,9 +115,3 @@ def _is_good(record: PhysicalRecord, readings: Readings) -> NDArray[np.bool_]:
     if action is ActionWord.MOVE:
         return (off < readings.target_cone) & right & (record.upright[:, target] > UPRIGHT)
     return (off > VIEW_HALF_WIDTH) & ~touched
-
-
-def _gap(record: PhysicalRecord) -> int:
-    """The longest break that counts as none, in physics steps: only where a contact is asked for."""
-    asks = record.instruction.action in (ActionWord.TOUCH, ActionWord.MOVE)
-    return round(LONGEST_BREAK_S / PHYSICS_STEP) if asks else 0

@@ -66,7 +66,7 @@ class Side:
     def __init__(self, take: Take, robot: Robot) -> None:
         instruction, seconds = take.record.instruction, take.record.steps * DT
         size = PANEL_WIDTH_PX, CAPTION_HEIGHT_PX
-        self._end = take.steps[-1]
+        self._end, self._planar_end = take.steps[-1], take.record.steps
         self._above = heading(instruction, robot.title, *size)
         self._running = footing((), seconds, *size)
         self._ended = footing(take.verdicts, seconds, *size)
@@ -75,7 +75,7 @@ class Side:
     def frame(self, step: float) -> NDArray[np.uint8]:
         """The picture after `step` steps, [720, 480, 3]."""
         below = self._ended if step >= self._end else self._running
-        return np.concatenate([self._above, self._panel.frame(step), below])
+        return np.concatenate([self._above, self._panel.frame(min(step, self._planar_end)), below])
 
 
 def frames(take: Take, robot: Robot) -> Iterator[NDArray[np.uint8]]:

@@ -32,14 +32,23 @@ def tip_in_plane(alpha_deg: ArrayLike, beta_deg: ArrayLike) -> np.ndarray:
     )
 
 
-def hand_targets(plane: PlaneMap, alpha_deg: ArrayLike, beta_deg: ArrayLike) -> np.ndarray:
-    """Give where the hand's reference point has to be, [..., 3] in [m] in the world."""
+def hand_targets(
+    plane: PlaneMap, alpha_deg: ArrayLike, beta_deg: ArrayLike, above: ArrayLike = 0.0
+) -> np.ndarray:
+    """Give where the hand's reference point has to be, [..., 3] in [m] in the world.
+
+    Args:
+        plane: The map.
+        alpha_deg: [...].
+        beta_deg: [...].
+        above: [...], how far the hand has to stay above an object, from 0 to 1 (`mujoco_port.stepping_over`).
+    """
     tip = plane.scale * tip_in_plane(alpha_deg, beta_deg)
-    height = np.broadcast_to(hand_height(plane, beta_deg), tip.shape[:-1])
+    height = np.broadcast_to(hand_height(plane, beta_deg, above), tip.shape[:-1])
     return np.concatenate([tip, height[..., None]], axis=-1)
 
 
-def hand_height(plane: PlaneMap, beta_deg: ArrayLike) -> np.ndarray:
+def hand_height(plane: PlaneMap, beta_deg: ArrayLike, above: ArrayLike = 0.0) -> np.ndarray:
     """Give the height [...] in [m] of the hand's reference point above the table top.
 
     A bent S2 is a line that passes inside the objects; the robot's hand has width and would run into them.
@@ -49,9 +58,14 @@ def hand_height(plane: PlaneMap, beta_deg: ArrayLike) -> np.ndarray:
 
     which rises without a step in height or speed.
     """
-    first, last = plane.lift_range
-    part = np.clip((np.asarray(beta_deg, dtype=float) - first) / (last - first), 0.0, 1.0)
-    return plane.hand_height + plane.lift * part**2 * (3.0 - 2.0 * part)
+    bent = smooth(np.asarray(beta_deg, dtype=float), *plane.lift_range)
+    return plane.hand_height + plane.lift * np.maximum(bent, above)
+
+
+def smooth(values: np.ndarray, first: float, last: float) -> np.ndarray:
+    """Rise from 0 at `first` to 1 at `last`, without a step in value or slope."""
+    part = np.clip((values - first) / (last - first), 0.0, 1.0)
+    return part**2 * (3.0 - 2.0 * part)
 
 
 def hand_headings(plane: PlaneMap, alpha_deg: ArrayLike, beta_deg: ArrayLike) -> np.ndarray:
@@ -63,9 +77,16 @@ def hand_headings(plane: PlaneMap, alpha_deg: ArrayLike, beta_deg: ArrayLike) ->
     tip = tip_in_plane(alpha_deg, beta_deg)
     bearing = np.arctan2(tip[..., 1], tip[..., 0])
     bearing = np.where(bearing < BEARING_CUT, bearing + 2 * np.pi, bearing)
-    return np.clip(bearing, *plane.heading_range)
+    return np.clip(bearing - plane.heading_lead, *plane.heading_range)
 
 
 def on_table(plane: PlaneMap, points_cm: np.ndarray) -> np.ndarray:
     """Give the places on the table, [..., 2] in [m], of points [..., 2] in [cm] of the 2D world."""
     return plane.scale * np.asarray(points_cm, dtype=float)
+
+
+def beta_of(plane: PlaneMap, hand: np.ndarray) -> float:
+    """Give beta in [deg] from where the hand is, [3] in [m]: the further from J1, the straighter is S2."""
+    reach = np.hypot(hand[0], hand[1]) / plane.scale
+    cosine = (reach**2 - S1_LENGTH**2 - S2_LENGTH**2) / (2 * S1_LENGTH * S2_LENGTH)
+    return float(np.degrees(np.arccos(np.clip(cosine, 0.0, 1.0))))

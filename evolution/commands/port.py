@@ -31,13 +31,26 @@ class Port(AgentCommand):
     output: Path | None = None
     """The video. By default `videos/<agent>-<instruction>.mp4` in the run folder, or in the current one."""
 
+    physics: bool = False
+    """Let the robot act: motors, free objects, contacts; prints what became of it in 2D and 3D."""
+
+    closed_loop: Literal["geometric", "camera"] | None = None
+    """The agent's inputs come from the acting robot: objects seen where they are, or by a rendered camera."""
+
+    video: bool = True
+    """Without a video, only the verdicts of an acting robot are printed."""
+
     def run(self) -> int:
-        """Record the trial and let the humanoid follow it."""
+        """Record the trial and let the humanoid follow it, or carry it out."""
+        physics = self.physics or self.closed_loop is not None
+        if not self.video and not physics:
+            raise ValueError("without a video there is nothing to do but physics; add --physics")
         instruction = Instruction.parse(self.instruction)
 
         from evolution.recording import record_instruction
         from evolution.storage import make_folder
         from models.robots import get_robot
+        from mujoco_port.physical_port import port_physical_trial
         from mujoco_port.port import port_trial
 
         get_robot(self.robot)  # refuses unknown names before anything is made
@@ -46,7 +59,17 @@ class Port(AgentCommand):
         home = Path() if source.folder is None else source.folder.path
         words = f"{instruction.action.name}-{instruction.object.name}".lower()
         output = self.output or home / "videos" / f"{source.name}-{words}.mp4"
-        make_folder(output.parent)
-        port_trial(record, output, robot=self.robot)
-        print(output)
+        if self.video:
+            make_folder(output.parent)
+        if physics:
+            shown = output if self.video else None
+            verdict = port_physical_trial(
+                record, source.genotype, shown, robot=self.robot, closed_loop=self.closed_loop
+            )
+            print(f"2D: {'carried out' if record.success else 'not carried out'}")
+            print(f"3D: {'carried out' if verdict.success else 'not carried out: ' + verdict.reason}")
+        else:
+            port_trial(record, output, robot=self.robot)
+        if self.video:
+            print(output)
         return 0

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from models.physics import NoPhysicsError, build_physics_model
-from mujoco_port.exertion import exertion
+from mujoco_port.exertion import exertion, tracking_errors
+from mujoco_port.eyes import geometric_eyes
 from mujoco_port.open_loop import planar_angles
 from mujoco_port.physical_rollout import carry_out
 from mujoco_port.trajectory import motion_between
@@ -85,10 +86,16 @@ def test_hand_without_objects_in_its_way_is_tracked_and_the_motors_limits_hold(
             evolved_agent, planar.instruction, planar.alpha[0], planar.discs[0], planar.readings
         )
         record = carry_out(
-            lab.body, lab.kinematics, _Orders(orders, 40), planar.instruction, away, lambda _: False
+            lab.body,
+            lab.kinematics,
+            _Orders(orders, 40),
+            geometric_eyes(lab.body),
+            planar.instruction,
+            away,
+            lambda _: False,
         )
         assert record.steps == 40
-        errors.append(record.tracking_error)
+        errors.append(tracking_errors(record, lab.kinematics))
         assert not record.contact.any()
         used = exertion(record, lab.kinematics, lab.body.robot.limits)
         assert used.velocity.max() < 1.0
@@ -108,7 +115,7 @@ class _Orders:
     def first(self):
         return next(self._angles), next(self._angles)
 
-    def after(self):
+    def after(self, *_):
         self._left -= 1
         return next(self._angles) if self._left >= 0 else None
 

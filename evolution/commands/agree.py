@@ -1,0 +1,83 @@
+"""`wordarm agree`: how often the robot, with motors and free objects, does what the 2D arm does."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from tyro.conf import Positional, arg
+
+if TYPE_CHECKING:
+    from mujoco_port.agreement import Agent
+
+
+@dataclass(frozen=True)
+class Agree:
+    """Let the robot carry out many trials of agents by itself, judge them in 3D, and count."""
+
+    sources: Annotated[Positional[tuple[str, ...]], arg(metavar="AGENT...")]
+    """Run folders, genotype files or names of shipped champions; the best of each is meant."""
+
+    loops: tuple[Literal["open", "geometric", "camera"], ...] = ("open",)
+    """open: the robot follows the 2D arm. geometric, camera: the agent's inputs come from the robot."""
+
+    starts: int = 20
+    """Fresh starts of each instruction in each start area."""
+
+    seed: int = 0
+    """The starts follow from it."""
+
+    robot: str = "icub"
+    """Which humanoid; an unknown name lists those there are."""
+
+    processes: int | None = None
+    """How many trials at once; by default one for each core."""
+
+    output: Path = Path("agreement.csv")
+    """One row for each trial; a file that is not complete is continued."""
+
+    def run(self) -> int:
+        """Carry out what the file does not hold yet, and print the counts."""
+        if self.starts < 1 or (self.processes is not None and self.processes < 1) or not self.sources:
+            raise ValueError(
+                f"{len(self.sources)} agents, {self.starts} starts and {self.processes} processes make no "
+                "trials; each must be at least 1"
+            )
+        from rich.console import Console
+        from rich.progress import track
+
+        from models.robots import get_robot
+        from mujoco_port.agreement import jobs, outcomes
+        from mujoco_port.gl import choose_back_end
+        from mujoco_port.tally import tables
+
+        get_robot(self.robot)
+        if "camera" in self.loops:
+            choose_back_end()
+        listed = jobs([find_agent(source) for source in self.sources], self.loops, self.starts, self.seed)
+        processes = self.processes or len(os.sched_getaffinity(0))
+        console = Console()
+        counted = list(
+            track(
+                outcomes(listed, self.robot, self.output, processes),
+                "trials on the robot",
+                total=len(listed),
+                console=Console(stderr=True),
+            )
+        )
+        for table in tables(counted):
+            console.print(table)
+        print(self.output)
+        return 0
+
+
+def find_agent(name: str) -> Agent:
+    """An agent, by what the user calls it."""
+    from evolution.sources import find_source
+    from mujoco_port.agreement import Agent
+
+    source = find_source(name)
+    home = "" if source.folder is None else f"{source.condition}/{source.folder.path.name}/"
+    return Agent(home + source.name, source.genotype, source.condition.instructions, source.readings)

@@ -1,0 +1,206 @@
+"""How often the robot does what the 2D arm does: many trials, judged in both worlds.
+
+Every trial is one row of a file, written as soon as it is known; a file that is not complete is continued.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import multiprocessing
+from collections.abc import Iterator, Sequence
+from dataclasses import astuple, dataclass, fields
+from importlib.resources import files
+from pathlib import Path
+from typing import Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
+from models.robots import get_robot
+
+Loop = Literal["open", "geometric", "camera"]
+LOOPS: Final[tuple[Loop, ...]] = ("open", "geometric", "camera")
+AREAS: Final = ("right", "left")
+MARK: Final = "# "
+
+
+@dataclass(frozen=True)
+class Agent:
+    """Whom to try.
+
+    Attributes:
+        name: What its rows are called.
+        genotype: [84].
+        instructions: The nine of its condition.
+        readings: Its world.
+    """
+
+    name: str
+    genotype: NDArray[np.float64]
+    instructions: tuple[Instruction, ...]
+    readings: Readings
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One trial in both worlds; a row of the file.
+
+    Attributes:
+        agent: Its name.
+        loop: Whether and how the agent's inputs came from the robot.
+        instruction: In words.
+        area: Where S1 started.
+        start: Number of the start, from 0.
+        planar: Whether the 2D arm succeeded, 0 or 1.
+        physical: Whether the robot did.
+        progress: [s], or [deg] for MOVE, of what was asked.
+        reason: In words, why not.
+    """
+
+    agent: str
+    loop: str
+    instruction: str
+    area: str
+    start: int
+    planar: int
+    physical: int
+    progress: float
+    reason: str
+
+
+@dataclass(frozen=True)
+class Job:
+    """One trial to carry out."""
+
+    agent: Agent
+    loop: Loop
+    trial: Trials
+    area: str
+    start: int
+
+
+def jobs(agents: Sequence[Agent], loops: Sequence[Loop], n_starts: int, seed: int) -> list[Job]:
+    """All instructions from `n_starts` fresh starts in each area, the same for every agent and loop."""
+    listed = []
+    for agent in agents:
+        rng = np.random.default_rng(seed)
+        trials = draw_trials(agent.instructions, n_starts, agent.readings, rng)
+        for loop in loops:
+            for t in range(len(trials)):
+                area, start = divmod(t % (2 * n_starts), n_starts)
+                listed.append(Job(agent, loop, trials[t], AREAS[area], start))
+    return listed
+
+
+def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> Iterator[Outcome]:
+    """Carry out the jobs that a file does not hold yet, and write them to it; all outcomes, in order.
+
+    Raises:
+        ValueError: If the file holds outcomes of other trials, or of another version of the robot.
+        OSError: If the file cannot be written.
+    """
+    mark = MARK + fingerprint(listed, robot)
+    known = _read(path, mark) if path.exists() else []
+    yield from known
+    left = listed[len(known) :]
+    with path.open("a", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        if not known and file.tell() == 0:
+            file.write(mark + "\n")
+            writer.writerow(field.name for field in fields(Outcome))
+        # Spawned, not forked: a forked child would share the parent's state of drawing and linear algebra.
+        with multiprocessing.get_context("spawn").Pool(processes, _move_in, (robot,)) as pool:
+            for outcome in pool.imap(carry_out_job, left):
+                writer.writerow(astuple(outcome))
+                file.flush()
+                yield outcome
+
+
+def fingerprint(listed: Sequence[Job], robot: str) -> str:
+    """What determines the outcomes: sources, robot, genotypes and starts."""
+    digest = hashlib.sha256(robot.encode())
+    for package in ("arm2d", "models", "mujoco_port"):
+        for source in sorted(files(package).iterdir(), key=lambda each: each.name):
+            if source.name.endswith((".py", ".xml")):
+                digest.update(source.read_bytes())
+    for job in listed:
+        digest.update(f"{job.agent.name} {job.loop} {job.agent.readings}".encode())
+        for array in (
+            job.agent.genotype,
+            job.trial.alpha,
+            job.trial.discs,
+            job.trial.actions,
+            job.trial.objects,
+        ):
+            digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()[:16]
+
+
+def _read(path: Path, mark: str) -> list[Outcome]:
+    """The outcomes in a file of ours; a last line that was not written to its end is cut off."""
+    whole = path.read_text(encoding="utf-8")
+    if not whole:
+        return []
+    if not whole.startswith(mark + "\n"):
+        raise ValueError(
+            f"{path} holds no outcomes of these trials with this version of the robot; choose another file"
+        )
+    lines = whole[: whole.rfind("\n") + 1]
+    if lines != whole:
+        path.write_text(lines, encoding="utf-8")
+    rows = list(csv.reader(lines.splitlines()[2:]))
+    try:
+        return [_outcome(row) for row in rows]
+    except ValueError as error:
+        raise ValueError(f"{path} has a row that is no outcome ({error}); choose another file") from None
+
+
+def _outcome(row: Sequence[str]) -> Outcome:
+    agent, loop, instruction, area, start, planar, physical, progress, reason = row
+    return Outcome(
+        agent, loop, instruction, area, int(start), int(planar), int(physical), float(progress), reason
+    )
+
+
+_lab = None
+_eyes = None
+
+
+def _move_in(robot: str) -> None:
+    """Build the robot of this process once."""
+    global _lab, _eyes
+    from mujoco_port.physical import Lab
+
+    _lab, _eyes = Lab(get_robot(robot)), None
+
+
+def carry_out_job(job: Job) -> Outcome:
+    """One trial in both worlds, on the robot of this process."""
+    global _eyes
+    if _lab is None:
+        raise RuntimeError("there is no robot in this process")
+    agent, readings = job.agent, job.agent.readings
+    scores = run_trials(agent.genotype[np.newaxis], job.trial, readings)
+    if job.loop == "camera" and _eyes is None:
+        from mujoco_port.camera import CameraEyes
+
+        _eyes = CameraEyes(_lab.body)
+    if job.loop == "open":
+        record, verdict = _lab.open_loop(agent.genotype, job.trial, readings)
+    else:
+        record, verdict = _lab.closed_loop(
+            agent.genotype, job.trial, readings, _eyes if job.loop == "camera" else None
+        )
+    return Outcome(
+        agent.name,
+        job.loop,
+        str(record.instruction),
+        job.area,
+        job.start,
+        int(scores.success[0, 0]),
+        int(verdict.success),
+        round(verdict.progress, 2),
+        "" if verdict.success else verdict.reason,
+    )

@@ -1,0 +1,93 @@
+"""Closed loop: what the robot senses, and that agents live in it."""
+
+import numpy as np
+import pytest
+
+from arm2d import Instruction, Readings, draw_trials, record_trial
+from evolution.sources import find_source
+from mujoco_port.camera import CameraEyes
+from mujoco_port.closed_loop import felt
+from mujoco_port.contacts import LEFT_SIDE, RIGHT_SIDE
+from mujoco_port.eyes import geometric_eyes
+from mujoco_port.physical_port import start_of
+from mujoco_port.workspace import beta_of, hand_headings, hand_targets, on_table
+
+READINGS = Readings()
+
+
+@pytest.fixture
+def standing(lab, champion_records):
+    """The robot at the start of a trial, hand high or away from the objects."""
+    record = champion_records[0]
+    plane, alpha, beta = lab.body.robot.plane, np.array(60.0), np.array(90.0)
+    angles = lab.kinematics.settle(hand_targets(plane, alpha, beta), float(hand_headings(plane, alpha, beta)))
+    lab.body.start(angles, on_table(plane, record.discs[0]))
+    return lab.body, record.discs[0]
+
+
+def bearing(place):
+    return np.degrees(np.arctan2(place[1], place[0]))
+
+
+def test_beta_follows_from_where_the_hand_is(robot):
+    for alpha in (-30.0, 60.0, 210.0):
+        for beta in (0.0, 2.9, 40.0, 90.0):
+            hand = hand_targets(robot.plane, np.array(alpha), np.array(beta))
+            assert beta_of(robot.plane, hand) == pytest.approx(beta, abs=1e-5)
+
+
+def test_touch_is_felt_on_the_side_where_it_was_within_the_last_moments():
+    contact = np.zeros((10, 3), np.uint8)
+    contact[2, 0], contact[7, 2] = RIGHT_SIDE, LEFT_SIDE
+    assert felt(contact) == ["right", None, "left"]
+    assert felt(contact[:0]) == [None, None, None]
+
+
+def test_geometric_eyes_see_objects_where_the_2d_world_has_them(standing):
+    body, discs = standing
+    np.testing.assert_allclose(geometric_eyes(body)(0.0), discs, atol=1e-9)
+
+
+def test_camera_sees_the_same_bearings_as_geometry_and_nothing_outside_its_field(standing):
+    body, discs = standing
+    with CameraEyes(body) as eyes:
+        for target, disc in enumerate(discs):
+            true = bearing(disc)
+            for offset in (-14.0, -5.0, 0.0, 9.0, 14.0):
+                seen = eyes(true + offset)
+                # A pixel in the middle of the picture is 0.18 degrees wide.
+                assert bearing(seen[target]) == pytest.approx(true, abs=0.2)
+                hidden = [k for k in range(3) if abs(bearing(discs[k]) - true - offset) > 60.0]
+                assert all(seen[k][1] < -100.0 for k in hidden)
+
+
+def test_agents_order_takes_effect_one_control_step_after_what_it_answers_to(lab, evolved_agent):
+    """In the 2D world the second state answers to the first inputs; here the third does."""
+    record = _trial("indicate red", evolved_agent)
+    physical, _ = lab.closed_loop(evolved_agent, start_of(record), READINGS)
+    np.testing.assert_array_equal(physical.orders[0], physical.orders[1])
+    k = 15  # nothing has been seen yet: the same inputs, the same turns
+    np.testing.assert_allclose(physical.orders[1 : k + 2, 0], record.alpha[: k + 1], atol=1e-9)
+
+
+def test_shipped_generaliser_moves_red_in_the_robots_body_with_either_kind_of_eyes(lab):
+    champion = find_source("best-generaliser", generation=None, rank=0, condition=None).genotype
+    record = _trial("move red", champion)
+    assert record.success
+    with CameraEyes(lab.body) as eyes:
+        for sight in (None, eyes):
+            physical, verdict = lab.closed_loop(champion, start_of(record), READINGS, sight)
+            assert verdict.success
+            assert abs(physical.steps - record.steps) < 10
+
+
+def test_same_trial_is_repeated_to_the_last_bit(lab, evolved_agent):
+    record = _trial("move red", evolved_agent)
+    first, second = (lab.closed_loop(evolved_agent, start_of(record), READINGS)[0] for _ in range(2))
+    np.testing.assert_array_equal(first.objects, second.objects)
+    np.testing.assert_array_equal(first.contact, second.contact)
+
+
+def _trial(words, genotype):
+    trials = draw_trials([Instruction.parse(words)], 1, READINGS, np.random.default_rng(2))
+    return record_trial(genotype, trials[0], READINGS)

@@ -1,0 +1,130 @@
+"""Verdicts in 3D, on trials made by hand: what counts, what breaks a run, what fails a trial."""
+
+import numpy as np
+import pytest
+
+from arm2d import Instruction, Readings
+from mujoco_port.contacts import ARM, LEFT_SIDE, OBJECT, RIGHT_SIDE
+from mujoco_port.physical_rollout import PhysicalRecord
+from mujoco_port.verdict import closed, judge
+
+BLUE, GREEN, RED = 0, 1, 2
+TEN_SECONDS = 5000  # physics steps
+READINGS = Readings()
+
+
+def trial(words, n=6000, **changes):
+    """S1 at rest on the target, which nothing touches; `changes` replace what was measured."""
+    instruction = Instruction.parse(words)
+    bearings = np.radians([30.0, 90.0, 150.0])
+    places = 0.3 * np.stack([np.cos(bearings), np.sin(bearings), 0 * bearings], axis=-1)
+    measured = {
+        "alpha": np.full(n, (30.0, 90.0, 150.0)[instruction.object]),
+        "still": np.ones(n, bool),
+        "angles": np.zeros((n, 10)),
+        "velocities": np.zeros((n, 10)),
+        "torques": np.zeros((n, 10)),
+        "hand": np.zeros((n, 3)),
+        "joints": np.zeros((n, 10)),
+        "places": np.tile(np.hstack([places, np.tile([1.0, 0.0, 0.0, 0.0], (3, 1))]), (n, 1, 1)),
+        "contact": np.zeros((n, 3), np.uint8),
+        "depth": np.zeros(n),
+    }
+    return PhysicalRecord(instruction, 0.002, np.zeros((n // 50 + 1, 2)), **{**measured, **changes})
+
+
+def touching(target, sides, n=6000):
+    contact = np.zeros((n, 3), np.uint8)
+    contact[:, target] = sides
+    return contact
+
+
+def pushed(target, degrees, n=1000, distance=0.3):
+    """An object that moves to smaller bearings, S1 behind it by 2 degrees."""
+    bearing = np.linspace((30.0, 90.0, 150.0)[target], (30.0, 90.0, 150.0)[target] - degrees, n)
+    places = trial("move red", n).places.copy()
+    places[:, target, :2] = distance * np.stack(
+        [np.cos(np.radians(bearing)), np.sin(np.radians(bearing))], -1
+    )
+    return {"places": places, "alpha": bearing + 2.0, "still": np.zeros(n, bool)}
+
+
+def test_indicate_is_ten_seconds_on_target_without_a_touch():
+    verdict = judge(trial("indicate green"), READINGS)
+    assert verdict.success
+    assert verdict.end == TEN_SECONDS - 1
+    assert not judge(trial("indicate green", n=TEN_SECONDS - 1), READINGS).success
+    assert not judge(trial("indicate green", alpha=np.full(6000, 94.7)), READINGS).success
+
+
+def test_one_touch_of_the_target_resets_indicate_and_touching_it_on_and_on_fails():
+    contact = touching(GREEN, 0)
+    contact[3000, GREEN] = LEFT_SIDE
+    verdict = judge(trial("indicate green", contact=contact), READINGS)
+    assert not verdict.success
+    assert not verdict.certain
+    assert verdict.progress == pytest.approx(6.0)
+    assert not judge(trial("indicate green", contact=touching(GREEN, RIGHT_SIDE)), READINGS).success
+
+
+def test_touch_wants_the_little_fingers_side_and_s1_at_rest():
+    assert judge(trial("touch red", contact=touching(RED, RIGHT_SIDE)), READINGS).success
+    assert not judge(trial("touch red", contact=touching(RED, LEFT_SIDE)), READINGS).success
+    turning = trial("touch red", contact=touching(RED, RIGHT_SIDE), still=np.zeros(6000, bool))
+    assert not judge(turning, READINGS).success
+
+
+@pytest.mark.parametrize(("steps", "unbroken"), [(10, True), (11, False)])
+def test_a_contact_may_chatter_for_twenty_milliseconds_and_no_longer(steps, unbroken):
+    contact = touching(RED, RIGHT_SIDE)
+    contact[3000 : 3000 + steps, RED] = 0
+    assert judge(trial("touch red", contact=contact), READINGS).success == unbroken
+
+
+def test_move_is_an_arc_about_j1_under_contact():
+    n = 1000
+    contact = touching(BLUE, RIGHT_SIDE, n)
+    contact[:100] = 0  # it moves by 3.5 degrees before it is touched
+    far = judge(trial("move blue", n, contact=contact, **pushed(BLUE, 40.0)), READINGS)
+    assert far.success
+    assert 34.4 <= far.progress < 36.6
+    near = judge(trial("move blue", n, contact=contact, **pushed(BLUE, 36.0)), READINGS)
+    assert not near.success
+    assert near.progress == pytest.approx(36.0 * 0.9, abs=0.1)
+
+
+def test_move_does_not_count_while_the_object_is_off_target_tilted_or_let_go():
+    n, whole = 1000, {"contact": touching(BLUE, RIGHT_SIDE, 1000), **pushed(BLUE, 40.0)}
+    assert judge(trial("move blue", n, **whole), READINGS).success
+    assert not judge(trial("move blue", n, **{**whole, "alpha": whole["alpha"] + 5.0}), READINGS).success
+    tilted = whole["places"].copy()
+    tilted[500, BLUE, 3:] = np.cos(np.radians(6.0)), np.sin(np.radians(6.0)), 0.0, 0.0
+    assert not judge(trial("move blue", n, **{**whole, "places": tilted}), READINGS).success
+    gone = touching(BLUE, RIGHT_SIDE, n)
+    gone[500:520] = 0
+    assert not judge(trial("move blue", n, **{**whole, "contact": gone}), READINGS).success
+
+
+@pytest.mark.parametrize("how", [RIGHT_SIDE, LEFT_SIDE, ARM, OBJECT])
+def test_touching_another_object_fails_a_trial_for_good(how):
+    contact = touching(GREEN, 0)
+    contact[2000, BLUE] = how
+    verdict = judge(trial("indicate green", contact=contact), READINGS)
+    assert (verdict.success, verdict.certain, verdict.end) == (False, True, 2000)
+    assert verdict.reason == "another object was touched"
+    late = touching(GREEN, 0)
+    late[TEN_SECONDS + 1, BLUE] = how
+    assert judge(trial("indicate green", contact=late), READINGS).success
+
+
+def test_ignore_is_ten_seconds_with_the_target_neither_in_view_nor_touched():
+    away = np.full(6000, 60.0)
+    assert judge(trial("ignore green", alpha=away), READINGS).success
+    assert not judge(trial("ignore green", alpha=away + 16.0), READINGS).success
+    assert not judge(trial("ignore green", alpha=away, contact=touching(GREEN, LEFT_SIDE)), READINGS).success
+
+
+def test_only_breaks_between_good_moments_are_closed():
+    good = np.array([0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 0], bool)
+    np.testing.assert_array_equal(closed(good, 2), np.array([0, 1, 1, 1, 1, 1, 0, 0, 0, 1, 0], bool))
+    np.testing.assert_array_equal(closed(good, 0), good)
