@@ -39,7 +39,9 @@ format: $(READY)  ## rewrite the sources in the project's style
 bench: $(READY)  ## what is fast, measured on this machine
 	$(BIN)/python -m benchmarks.kernel
 	$(BIN)/python -m benchmarks.run
+	$(BIN)/python -m benchmarks.experiment
 	$(BIN)/python -m benchmarks.ik
+	$(BIN)/python -m benchmarks.physics
 	$(BIN)/python -m benchmarks.video
 
 clean:  ## remove the environment and what the demo made

@@ -138,9 +138,10 @@ ICUB = Robot(
         "r_wrist_yaw",
     ),
     hand_frame="r_hand_dh_frame",
-    # Beside the tip of the little finger. With the roll below, the hand's rightmost places near the tip are
-    # 11 mm to the left of the point; when S2 meets the disc of 5 cm, the cylinder's centre is 9 mm to the
-    # right of it, and so 20 mm, its radius, from them. The hand's lowest place is 20 mm below the point.
+    # Beside the little finger, 20 mm behind its tip: what is pushed may come that much further out before
+    # the finger's round end lets it slip. With the roll below, the hand's rightmost places are 8 mm to the
+    # left of the point; when S2 meets the disc of 5 cm, the cylinder's centre is 9 mm to the right of it,
+    # and so 17 mm, its radius, from them. The hand's lowest place is 18 mm below the point.
     hand_offset=(0.0684, 0.0260, -0.0271),
     base_position=(-0.0763, -0.3161, 0.1252),
     base_yaw=-pi / 2,  # the iCub of the URDF faces -x
@@ -183,6 +184,7 @@ ICUB_ERD = replace(
     title="iCub (example-robot-data)",
     package="example-robot-data",
     urdf="icub_description/robots/icub.urdf",
+    plane=replace(ICUB.plane, hand_height=0.038, lift=0.052),  # its block of a hand reaches further down
     appearance=ICUB_ERD_APPEARANCE,
     limits=None,
     shapes=(),

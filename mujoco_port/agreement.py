@@ -105,6 +105,8 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
     known = _read(path, mark) if path.exists() else []
     yield from known
     left = listed[len(known) :]
+    if not left:
+        return
     with path.open("a", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         if not known and file.tell() == 0:

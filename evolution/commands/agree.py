@@ -40,11 +40,11 @@ class Agree:
 
     def run(self) -> int:
         """Carry out what the file does not hold yet, and print the counts."""
-        if self.starts < 1 or (self.processes is not None and self.processes < 1) or not self.sources:
-            raise ValueError(
-                f"{len(self.sources)} agents, {self.starts} starts and {self.processes} processes make no "
-                "trials; each must be at least 1"
-            )
+        if not self.sources:
+            raise ValueError("no agent is named; give run folders, genotype files or shipped champions")
+        for name, number in (("starts", self.starts), ("processes", self.processes)):
+            if number is not None and number < 1:
+                raise ValueError(f"--{name} {number} makes no trials; give at least 1")
         from rich.console import Console
         from rich.progress import track
 

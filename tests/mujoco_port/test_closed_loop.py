@@ -71,7 +71,7 @@ def test_agents_order_takes_effect_one_control_step_after_what_it_answers_to(lab
 
 
 def test_shipped_generaliser_moves_red_in_the_robots_body_with_either_kind_of_eyes(lab):
-    champion = find_source("best-generaliser", generation=None, rank=0, condition=None).genotype
+    champion = find_source("best-generaliser").genotype
     record = _trial("move red", champion)
     assert record.success
     with CameraEyes(lab.body) as eyes:

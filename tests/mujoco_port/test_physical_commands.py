@@ -1,0 +1,53 @@
+"""The commands that let the robot act: what they say, write and refuse."""
+
+import pytest
+
+from evolution.cli import main
+from evolution.commands.agree import find_agent
+from mujoco_port.agreement import fingerprint, jobs
+from mujoco_port.physical import instruction_of
+
+
+def test_port_with_physics_prints_both_verdicts_and_without_a_video_writes_nothing(
+    tmp_path, capsys, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    assert main(["port", "best-generaliser", "move red", "--physics", "--no-video"]) == 0
+    assert capsys.readouterr().out == "2D: carried out\n3D: carried out\n"
+    assert not any(tmp_path.iterdir())
+
+
+def test_agree_only_counts_what_a_complete_file_holds(tmp_path, capsys):
+    path, agent = tmp_path / "trials.csv", find_agent("best-generaliser")
+    listed = jobs([agent], ("open",), 1, seed=0)
+    rows = [
+        f"{agent.name},open,{instruction_of(job.trial)},{job.area},{job.start},1,0,0.0,x" for job in listed
+    ]
+    path.write_text("\n".join((f"# {fingerprint(listed, 'icub')}", "agent,...", *rows)) + "\n")
+    before = path.read_bytes()
+    assert main(["agree", "best-generaliser", "--starts", "1", "--output", str(path)]) == 0
+    said = capsys.readouterr().out
+    assert said.count("0.0 %") == 10  # nine instructions and all together
+    assert path.read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["port", "best-generaliser", "move red", "--no-video"], "without a video there is nothing to do"),
+        (
+            ["port", "best-generaliser", "move red", "--physics", "--no-video", "--robot", "icub-erd"],
+            "links that cannot act",
+        ),
+        (["agree", "best-generaliser", "--starts", "0"], "--starts 0 makes no trials; give at least 1"),
+        (["agree", "nobody"], "nobody"),
+        (["agree", "best-generaliser", "--robot", "nao"], "unknown robot 'nao'; there are: icub, icub-erd"),
+    ],
+)
+def test_bad_input_gets_one_sentence_and_writes_nothing(arguments, sentence, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(arguments) == 2
+    said = capsys.readouterr().err
+    assert sentence in said
+    assert said.count("\n") == 1
+    assert not any(tmp_path.iterdir())
