@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
 from models.robots import get_robot
 
-Loop = Literal["open", "geometric", "camera"]
-LOOPS: Final[tuple[Loop, ...]] = ("open", "geometric", "camera")
+Loop = Literal["open", "delayed", "geometric", "camera"]
 AREAS: Final = ("right", "left")
 MARK: Final = "# "
 
@@ -189,8 +188,8 @@ def carry_out_job(job: Job) -> Outcome:
         from mujoco_port.camera import CameraEyes
 
         _eyes = CameraEyes(_lab.body)
-    if job.loop == "open":
-        record, verdict = _lab.open_loop(agent.genotype, job.trial, readings)
+    if job.loop in ("open", "delayed"):
+        record, verdict = _lab.open_loop(agent.genotype, job.trial, readings, int(job.loop == "delayed"))
     else:
         record, verdict = _lab.closed_loop(
             agent.genotype, job.trial, readings, _eyes if job.loop == "camera" else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator
 
 import numpy as np
@@ -19,6 +20,7 @@ def planar_angles(
     alpha: float,
     discs: NDArray[np.float64],
     readings: Readings,
+    delay: int = 0,
 ) -> Iterator[Angles]:
     """Alpha and beta in [deg] at the start of a trial of the 2D world and after every step, without an end.
 
@@ -31,12 +33,15 @@ def planar_angles(
         alpha: [deg], where S1 starts.
         discs: [3, 2] in [cm], centres of blue, green and red.
         readings: The world.
+        delay: Steps from what is sensed to the turn that answers to it, beyond the step of the 2D world.
     """
     think = controller(genotype, readings)
     beta, places, sides = c.BETA_MAX, [tuple(each) for each in discs], [None, None, None]
+    turns = deque([(0.0, 0.0)] * delay)
     while True:
         yield alpha, beta
-        turn1, turn2 = think(sense(alpha, beta, places, sides, instruction, readings))
+        turns.append(think(sense(alpha, beta, places, sides, instruction, readings)))
+        turn1, turn2 = turns.popleft()
         new_alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
         new_beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))
         places, sides = touch(alpha, beta, new_alpha, new_beta, places, sides, readings.object_radius)

@@ -39,7 +39,7 @@ class Lab:
         self.kinematics = ArmKinematics(robot)
 
     def open_loop(
-        self, genotype: NDArray[np.float64], trial: Trials, readings: Readings
+        self, genotype: NDArray[np.float64], trial: Trials, readings: Readings, delay: int = 0
     ) -> tuple[PhysicalRecord, Verdict]:
         """Let the agent live in the 2D world, and the robot do what S2 does there.
 
@@ -47,12 +47,13 @@ class Lab:
             genotype: [84].
             trial: A batch of one.
             readings: The world.
+            delay: Steps by which the agent is answered late there; 1 as late as in closed loop.
 
         Raises:
             OutOfReachError: If the robot cannot reach a place.
         """
         instruction, discs = instruction_of(trial), trial.discs[0]
-        angles = planar_angles(genotype, instruction, float(trial.alpha[0]), discs, readings)
+        angles = planar_angles(genotype, instruction, float(trial.alpha[0]), discs, readings, delay)
         return self.carry_out(OpenLoop(angles), instruction, discs, readings)
 
     def closed_loop(

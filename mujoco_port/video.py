@@ -104,6 +104,8 @@ def frame_at(record: TrialRecord, robot: Robot, step: int) -> NDArray[np.uint8]:
     Raises:
         ValueError: If the record has no such step.
     """
+    if not 0 <= step <= record.steps:
+        raise ValueError(f"step {step} does not exist; this trial has steps 0 to {record.steps}")
     take = kinematic_take(record, robot, frames_per_step=1)
     panel = Side(take, robot).frame(step)
     with Stage(robot, 2 * ROBOT_WIDTH_PX, 2 * HEIGHT_PX) as stage:

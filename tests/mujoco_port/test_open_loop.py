@@ -4,6 +4,7 @@ from itertools import islice
 
 import numpy as np
 
+from arm2d import Instruction, Readings, draw_trials
 from mujoco_port.open_loop import OpenLoop, planar_angles
 
 
@@ -15,3 +16,15 @@ def test_orders_are_those_of_the_recorded_trial_and_go_on_after_it(evolved_agent
         orders = [*OpenLoop(ordered).first(), *islice(ordered, record.steps)]
         recorded = np.stack([record.alpha, record.beta], axis=-1)
         np.testing.assert_allclose(orders[:-1], recorded, atol=1e-9)
+
+
+def test_delayed_agent_stands_still_for_so_many_steps_and_then_does_what_it_would_have_done(evolved_agent):
+    """Nothing is in view at first, and nothing touched: the same inputs, the same turns, later."""
+    trials = draw_trials([Instruction.parse("indicate red")], 1, Readings(), np.random.default_rng(2))
+    start = trials.alpha[0], trials.discs[0], Readings()
+    prompt, late = (
+        list(islice(planar_angles(evolved_agent, Instruction.parse("indicate red"), *start, delay), 15))
+        for delay in (0, 2)
+    )
+    assert late[:3] == [prompt[0]] * 3
+    np.testing.assert_allclose(late[2:], prompt[:13], atol=1e-9)
