@@ -21,8 +21,8 @@ class Agree:
     """Run folders, genotype files or names of shipped champions; the best of each is meant."""
 
     loops: tuple[Literal["open", "delayed", "geometric", "camera"], ...] = ("open",)
-    """open: the robot follows the 2D arm. delayed: the same, with an agent that is answered a step late, as in
-    closed loop. geometric, camera: the agent's inputs come from the robot."""
+    """open: the robot follows the 2D arm. delayed: the same, with an agent that is answered a step late, as
+    in closed loop. geometric, camera: the agent's inputs come from the robot."""
 
     starts: int = 20
     """Fresh starts of each instruction in each start area."""
