@@ -9,6 +9,8 @@ import csv
 import hashlib
 import multiprocessing
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import astuple, dataclass, fields
 from importlib.resources import files
 from pathlib import Path
@@ -98,7 +100,7 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
 
     Raises:
         ValueError: If the file holds outcomes of other trials, or of another version of the robot.
-        OSError: If the file cannot be written.
+        OSError: If the file cannot be written, or a process was killed.
     """
     mark = MARK + fingerprint(listed, robot)
     known = _read(path, mark) if path.exists() else []
@@ -112,11 +114,20 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
             file.write(mark + "\n")
             writer.writerow(field.name for field in fields(Outcome))
         # Spawned, not forked: a forked child would share the parent's state of drawing and linear algebra.
-        with multiprocessing.get_context("spawn").Pool(processes, _move_in, (robot,)) as pool:
-            for outcome in pool.imap(carry_out_job, left):
-                writer.writerow(astuple(outcome))
-                file.flush()
-                yield outcome
+        context = multiprocessing.get_context("spawn")
+        with ProcessPoolExecutor(processes, context, initializer=_move_in, initargs=(robot,)) as pool:
+            try:
+                for outcome in pool.map(carry_out_job, left):
+                    writer.writerow(astuple(outcome))
+                    file.flush()
+                    yield outcome
+            except BrokenProcessPool:
+                raise OSError(
+                    f"a process that carried out trials was killed; {path} keeps what is done, "
+                    "go on with the same command"
+                ) from None
+            finally:
+                pool.shutdown(wait=False, cancel_futures=True)
 
 
 def fingerprint(listed: Sequence[Job], robot: str) -> str:

@@ -1,5 +1,7 @@
 """Counting trials in both worlds: the file of outcomes, and the tables."""
 
+import multiprocessing
+
 import numpy as np
 import pytest
 
@@ -58,6 +60,18 @@ def test_file_of_other_trials_is_refused_and_left_alone(complete, evolved_agent,
     ):
         list(outcomes(other, "icub", path, processes=1))
     assert path.read_bytes() == before
+
+
+def test_killed_process_is_told_and_what_is_done_is_kept(listed, complete, tmp_path):
+    path, whole = tmp_path / "trials.csv", complete[1].read_bytes()
+    running = outcomes(listed, "icub", path, processes=1)
+    first = next(running)
+    for child in multiprocessing.active_children():
+        child.kill()
+    with pytest.raises(OSError, match=r"was killed; .* keeps what is done, go on with the same command"):
+        list(running)
+    assert first == complete[0][0]
+    assert whole.startswith(path.read_bytes())
 
 
 def test_agreement_is_the_part_of_the_2d_successes_that_the_robot_shares():
