@@ -9,6 +9,8 @@ by recursive Newton-Euler (Pinocchio), so that the spring has to make up for con
 
 from __future__ import annotations
 
+from typing import Final
+
 import mujoco
 import numpy as np
 import pinocchio as pin
@@ -20,6 +22,20 @@ from models.physics import OBJECTS, build_physics_model
 from models.robots import Robot
 from mujoco_port.hand import hand_model
 from mujoco_port.trajectory import Motion
+
+# MuJoCo's warnings of numbers that are none, or too large.
+UNSTABLE: Final = tuple(
+    int(kind)
+    for kind in (
+        mujoco.mjtWarning.mjWARN_BADQPOS,
+        mujoco.mjtWarning.mjWARN_BADQVEL,
+        mujoco.mjtWarning.mjWARN_BADQACC,
+    )
+)
+
+
+class UnstableError(ValueError):
+    """A simulation that blew up: nothing in it means anything."""
 
 
 class Body:
@@ -112,3 +128,15 @@ class Body:
         """Take one physics step towards a set point [J] in [rad]."""
         self.data.ctrl[:] = set_point
         mujoco.mj_step(self.model, self.data)
+
+    def refuse_unstable(self) -> None:
+        """Check that the simulation has not blown up, of which MuJoCo only warns before it begins anew.
+
+        Raises:
+            UnstableError: If it has, since `start`.
+        """
+        if any(self.data.warning[kind].number for kind in UNSTABLE):
+            raise UnstableError(
+                f"the physics of robot '{self.robot.name}' became unstable; check the motors and shapes "
+                "of its record"
+            )

@@ -127,6 +127,7 @@ def carry_out(
 
     Raises:
         OutOfReachError: If the robot cannot reach a place.
+        UnstableError: If the simulation blows up.
     """
     plane = body.robot.plane
 
@@ -220,6 +221,7 @@ class _Log:
             kept["hand"][row] = body.hand
             kept["places"][row] = body.places
             kept["contact"][row], kept["depth"][row] = self._skin.read()
+        body.refuse_unstable()
         self._filled += count
 
     def record(self, orders: list[Angles]) -> PhysicalRecord:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from models.physics import NoPhysicsError, build_physics_model
+from mujoco_port.control import UnstableError
 from mujoco_port.exertion import exertion, tracking_errors
 from mujoco_port.eyes import geometric_eyes
 from mujoco_port.open_loop import planar_angles
@@ -124,10 +125,23 @@ def test_torque_never_exceeds_the_motors_limit(lab):
     body = lab.body
     body.start(lab.kinematics.rest, np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]]))
     largest = np.array(body.robot.limits.torque)
-    for _ in range(20):
+    for _ in range(5):
         body.advance(lab.kinematics.rest + 10.0)
         assert (np.abs(body.torques) <= largest).all()
     assert np.abs(body.torques) == pytest.approx(largest)
+    body.refuse_unstable()
+
+
+def test_simulation_that_blows_up_is_told_and_a_new_start_is_a_new_trial(lab, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes a log where it is
+    body, away = lab.body, np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]])
+    body.start(lab.kinematics.rest, away)
+    body.data.qvel[:] = np.nan
+    body.advance(lab.kinematics.rest)
+    with pytest.raises(UnstableError, match="the physics of robot 'icub' became unstable"):
+        body.refuse_unstable()
+    body.start(lab.kinematics.rest, away)
+    body.refuse_unstable()
 
 
 @pytest.mark.parametrize(
