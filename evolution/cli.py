@@ -47,6 +47,7 @@ LONGEST_SENTENCE: Final = 1000
 
 Command = (
     Evolve
+    | Agree
     | Evaluate
     | ExperimentCommand
     | BehaviourCommand
@@ -57,7 +58,6 @@ Command = (
     | LineageCommand
     | Measure
     | Plot
-    | Agree
     | Port
     | PostEvaluate
     | Repair
@@ -119,6 +119,7 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
     """Parse, with the default readings as given."""
     commands = (
         Annotated[Evolve, subcommand("evolve", default=Evolve(readings=readings))]
+        | Annotated[Agree, subcommand("agree")]
         | Annotated[BehaviourCommand, subcommand("behaviour")]
         | Annotated[Classes, subcommand("classes")]
         | Annotated[Compare, subcommand("compare")]
@@ -130,7 +131,6 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
         | Annotated[Measure, subcommand("measure")]
         | Annotated[Plot, subcommand("plot")]
         | Annotated[Port, subcommand("port")]
-        | Annotated[Agree, subcommand("agree")]
         | Annotated[PostEvaluate, subcommand("postevaluate")]
         | Annotated[Repair, subcommand("repair")]
         | Annotated[Report, subcommand("report")]
