@@ -19,13 +19,14 @@ EYE = "eye"  # a camera in J1
 # Which shapes meet: objects (1) with everything, the robot's shapes (2) with objects only.
 OBJECT_BIT, ROBOT_BIT = 1, 2
 
-# Sliding friction. Rubber skin of a hand on an object: 1.2 to 1.5. Object on table: smooth plastic on wood.
+# Sliding friction. Rubber skin of a hand on an object: 1.2 to 1.5. Object on table: plastic on wood, 0.3 to
+# 0.5; with less, an object comes loose from a hand that stops.
 HAND_FRICTION = 1.3
+TABLE_FRICTION = 0.5
 # [m], resistance to rolling: the force of a soft skin acts somewhere in the patch that it makes with a
-# cylinder, whose half-width is sqrt(2 radius depth), 7 mm where a cylinder of 20 mm is pressed in by 1.2 mm.
+# cylinder, whose half-width is sqrt(2 radius depth), 8 mm where a cylinder of 17 mm is pressed in by 1.9 mm.
 # Without it cylinders roll off a hand that is not quite square to its way.
 ROLLING_RESISTANCE = 0.008
-TABLE_FRICTION = 0.5
 # A motor pulls like a spring of this natural frequency on the inertia that the joint moves at rest,
 # critically damped: stiff enough to hold the hand, soft enough for steps of 2 ms.
 NATURAL_FREQUENCY = 66.0  # [rad/s]
