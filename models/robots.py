@@ -24,6 +24,27 @@ class UnknownRobotError(ValueError):
 
 
 @dataclass(frozen=True)
+class HandPrint:
+    """Where an object's centre is, seen from the hand's reference point, while a lowered hand would be in it.
+
+    Between the two numbers of a pair, in [m], the hand rises from low (the first) to above the object.
+
+    Attributes:
+        left_of_edge: To the left of the little finger's side; what is pressed against it does not count.
+        width: To the left, as far as the palm is wide.
+        length: Ahead, as far as the fingers are long.
+        before_wrist: Behind (negative), as far as the palm is long.
+        clear_height: [m], of the reference point, from which on the hand's lowest place is above all objects.
+    """
+
+    left_of_edge: tuple[float, float]
+    width: tuple[float, float]
+    length: tuple[float, float]
+    before_wrist: tuple[float, float]
+    clear_height: float
+
+
+@dataclass(frozen=True)
 class PlaneMap:
     """How the 2D world is laid on the table: X = scale x, Y = scale y, the higher the more S2 is bent.
 
@@ -36,6 +57,7 @@ class PlaneMap:
             a pushed object is some degrees ahead of the hand, and is to be pushed along its own arc.
         heading_range: [rad], the hand turns no further than this: beyond, the arm would have to fold behind
             the robot's side.
+        hand_print: Over what the hand does not come down.
     """
 
     scale: float
@@ -44,6 +66,7 @@ class PlaneMap:
     lift_range: tuple[float, float]
     heading_lead: float
     heading_range: tuple[float, float]
+    hand_print: HandPrint
 
 
 @dataclass(frozen=True)
@@ -152,6 +175,13 @@ ICUB = Robot(
         lift_range=(24.0, 43.0),
         heading_lead=pi / 30,
         heading_range=(-pi / 6, 17 * pi / 18),
+        hand_print=HandPrint(
+            left_of_edge=(-0.004, 0.008),  # a pushed object is 9 mm to the right
+            width=(0.092, 0.066),
+            length=(0.068, 0.048),
+            before_wrist=(-0.15, -0.12),
+            clear_height=0.068,
+        ),
     ),
     posture=Posture(
         rest=(-0.121, 0.215, -0.155, -1.667, 1.002, 0.429, 0.946, 0.161, 0.061, 0.009),

@@ -31,7 +31,6 @@ Eyes = Callable[[float], NDArray[np.float64]]
 # A 2D trial ends after 250 steps. A step there counts by its last moment, so 100 good ones may be all but a
 # step of 10 s, and in closed loop orders come a step late: the robot has half a second more to be judged.
 MOST_STEPS: Final = MAX_STEPS + 5
-CLEAR_HEIGHT_M: Final = 0.068  # of the hand's point: its lowest place is above all objects
 MOST_RISE: Final = 0.4  # of the way up, or down, in a control step
 
 
@@ -169,14 +168,14 @@ def above_objects(body: Body, objects: NDArray[np.float64], record: PhysicalReco
     A hand that is above the objects already must not come down on one that is below it by the time of the
     order, two control steps from now; a low one pushes what it will meet.
     """
+    plane, ahead = body.robot.plane, body.hand_rotation[:, 0]
     pushed = (record.contact[-body.steps_per_turn :] & RIGHT_SIDE).any(axis=0)
-    left, ahead = objects[~pushed], body.hand_rotation[:, 0]
-    now = float(stepping_over(body.hand[:2], np.arctan2(ahead[1], ahead[0]), left))
-    if body.hand[2] < CLEAR_HEIGHT_M:
+    left = objects[~pushed]
+    now = float(stepping_over(plane.hand_print, body.hand[:2], np.arctan2(ahead[1], ahead[0]), left))
+    if body.hand[2] < plane.hand_print.clear_height:
         return now
-    plane = body.robot.plane
-    then = stepping_over(on_table(plane, tip_in_plane(*order)), hand_headings(plane, *order), left)
-    return max(now, float(then))
+    tip, heading = on_table(plane, tip_in_plane(*order)), hand_headings(plane, *order)
+    return max(now, float(stepping_over(plane.hand_print, tip, heading, left)))
 
 
 class _Log:

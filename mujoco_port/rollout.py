@@ -55,12 +55,12 @@ def roll_out(record: TrialRecord, robot: Robot, frames_per_step: float = FRAMES_
     """
     steps = moments(record.steps, frames_per_step)
     alpha, beta = _at(record.alpha, steps), _at(record.beta, steps)
-    objects, headings = (
-        on_table(robot.plane, _at(record.discs, steps)),
-        hand_headings(robot.plane, alpha, beta),
-    )
+    headings = hand_headings(robot.plane, alpha, beta)
+    objects = on_table(robot.plane, _at(record.discs, steps))
     tip = on_table(robot.plane, tip_in_plane(alpha, beta))
-    targets = hand_targets(robot.plane, alpha, beta, stepping_over(tip, headings, objects))
+    targets = hand_targets(
+        robot.plane, alpha, beta, stepping_over(robot.plane.hand_print, tip, headings, objects)
+    )
     return Rollout(steps, ArmKinematics(robot).follow(targets, headings), targets, objects)
 
 

@@ -7,28 +7,23 @@ pushes is at its right side and does not count.
 
 from __future__ import annotations
 
-from typing import Final
-
 import numpy as np
 from numpy.typing import NDArray
 
+from models.robots import HandPrint
 from mujoco_port.workspace import smooth
-
-# Where an object's centre is, seen from the hand's reference point, while a lowered hand would be in it, in
-# [m]: to the left of the little finger's side (what is pressed against it is 9 mm to the right) as far as
-# the palm is wide, and ahead as far as the fingers are long. Between two numbers the hand rises.
-LEFT_OF_EDGE: Final = (-0.004, 0.008)
-WIDTH: Final = (0.092, 0.066)
-LENGTH: Final = (0.068, 0.048)
-BEFORE_WRIST: Final = (-0.15, -0.12)
 
 
 def stepping_over(
-    hand: NDArray[np.float64], heading: NDArray[np.float64] | float, objects: NDArray[np.float64]
+    prints: HandPrint,
+    hand: NDArray[np.float64],
+    heading: NDArray[np.float64] | float,
+    objects: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """How far the hand has to be raised, [...] from 0 to 1.
 
     Args:
+        prints: Of the robot's hand.
         hand: [..., 2] in [m], its reference point on the table.
         heading: [...] in [rad], of its fingers.
         objects: [..., O, 2] in [m], centres of any number of objects on the table.
@@ -37,6 +32,6 @@ def stepping_over(
     cosine, sine = np.cos(heading)[..., np.newaxis], np.sin(heading)[..., np.newaxis]
     ahead = cosine * away[..., 0] + sine * away[..., 1]
     left = cosine * away[..., 1] - sine * away[..., 0]
-    across = smooth(left, *LEFT_OF_EDGE) * smooth(left, *WIDTH)
-    along = smooth(ahead, *BEFORE_WRIST) * smooth(ahead, *LENGTH)
+    across = smooth(left, *prints.left_of_edge) * smooth(left, *prints.width)
+    along = smooth(ahead, *prints.before_wrist) * smooth(ahead, *prints.length)
     return (across * along).max(axis=-1, initial=0.0)

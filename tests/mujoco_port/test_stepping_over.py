@@ -3,17 +3,19 @@
 import numpy as np
 import pytest
 
+from models.robots import get_robot
 from mujoco_port.stepping_over import stepping_over
 from mujoco_port.workspace import hand_headings, hand_height, on_table, tip_in_plane
 
 HAND = np.array([0.1, 0.2])
+PRINT = get_robot("icub").plane.hand_print
 
 
 def raised(ahead, left, heading=0.7):
     """For one object so far [m] ahead and to the left of the hand."""
     along = np.array([np.cos(heading), np.sin(heading)])
     place = HAND + ahead * along + left * np.array([-along[1], along[0]])
-    return float(stepping_over(HAND, heading, place[np.newaxis]))
+    return float(stepping_over(PRINT, HAND, heading, place[np.newaxis]))
 
 
 @pytest.mark.parametrize(
@@ -39,7 +41,7 @@ def test_hand_rises_without_a_jump_while_it_comes_near():
 
 def test_without_objects_and_with_far_ones_the_height_is_that_of_beta(robot):
     beta = np.linspace(0.0, 90.0, 31)
-    nothing = stepping_over(HAND, 0.0, np.empty((0, 2)))
+    nothing = stepping_over(PRINT, HAND, 0.0, np.empty((0, 2)))
     np.testing.assert_array_equal(hand_height(robot.plane, beta, nothing), hand_height(robot.plane, beta))
 
 
@@ -52,6 +54,6 @@ def test_pushed_objects_of_all_trials_do_not_raise_the_hand(robot, champion_reco
         pushed = (record.contact == 1) & (record.beta < 1.0)[:, np.newaxis]
         for k, target in np.argwhere(pushed):
             disc = on_table(robot.plane, record.discs[k, target])
-            assert stepping_over(tip[k], heading[k], disc[np.newaxis]) < 0.1
+            assert stepping_over(PRINT, tip[k], heading[k], disc[np.newaxis]) < 0.1
             seen += 1
     assert seen > 100
