@@ -9,7 +9,8 @@ a few units (tests/arm2d/test_arithmetic.py compares them with 40-digit arithmet
 """
 
 import math
-from typing import Final
+from collections.abc import Callable
+from typing import Any, Final
 
 from numba.core import types
 from numba.extending import intrinsic, overload, register_jitable
@@ -43,10 +44,10 @@ def _power_of_two(rounded: float) -> float:
 
 
 @intrinsic
-def _power_of_two_from_bits(typing_context, rounded):
+def _power_of_two_from_bits(typing_context: Any, rounded: types.Type) -> tuple[Any, Callable]:
     """The same for compiled code: k is moved from the sum's lowest bits into the exponent."""
 
-    def build(context, builder, signature, arguments):
+    def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         int64 = context.get_value_type(types.int64)
         bits = builder.bitcast(arguments[0], int64)
         exponent = builder.add(bits, int64(1023))
@@ -56,12 +57,12 @@ def _power_of_two_from_bits(typing_context, rounded):
 
 
 @overload(_power_of_two, inline="always")
-def _compiled_power_of_two(rounded):
+def _compiled_power_of_two(rounded):  # noqa: ANN001, ANN202 - Numba holds its signature against the lambda's
     return lambda rounded: _power_of_two_from_bits(rounded)  # type: ignore[call-arg] - Numba adds the context
 
 
 @register_jitable
-def _exp_parts(x):
+def _exp_parts(x: float) -> tuple[float, float, float]:
     """(a, b, p) with exp(x) = p a / b: p a power of two, a / b near 1.
 
     With r the rest of x / ln 2, exp(r) = (c + r) / (c - r), c = r coth(r / 2), an even function
@@ -78,21 +79,21 @@ def _exp_parts(x):
 
 
 @register_jitable
-def exp(x):
+def exp(x: float) -> float:
     """e**x for |x| <= 700."""
     above, below, power = _exp_parts(x)
     return power * above / below
 
 
 @register_jitable
-def sigmoid(x):
+def sigmoid(x: float) -> float:
     """1 / (1 + e**-x) for |x| <= 700, with a single division."""
     above, below, power = _exp_parts(-x)
     return below / (below + power * above)
 
 
 @register_jitable
-def log(x):
+def log(x: float) -> float:
     """Natural logarithm of a positive number.
 
     x = m 2**k with m in [0.7, 1.42); ln m = 2 artanh((m - 1) / (m + 1)), as a series.
@@ -109,7 +110,7 @@ def log(x):
 
 
 @register_jitable
-def sin_cos(angle_deg):
+def sin_cos(angle_deg: float) -> tuple[float, float]:
     """(sine, cosine) of an angle in degrees: Taylor series after taking off quarter turns."""
     quarter = (angle_deg / 90.0 + _ROUNDER) - _ROUNDER
     r = (angle_deg - 90.0 * quarter) * _RADIANS_PER_DEGREE
@@ -130,7 +131,7 @@ def sin_cos(angle_deg):
 
 
 @register_jitable
-def _atan_of_ratio(t):
+def _atan_of_ratio(t: float) -> float:
     """Arc tangent of t in [0, 1], in radians: from the nearest eighth, then a Taylor series."""
     nearest = int(8.0 * t + 0.5)
     c = nearest / 8.0
@@ -143,7 +144,7 @@ def _atan_of_ratio(t):
 
 
 @register_jitable
-def bearing(x, y):
+def bearing(x: float, y: float) -> float:
     """Direction of the point (x, y) in degrees, in [-90, 270) (spec section 4)."""
     across, along = abs(x), abs(y)
     if across == 0.0 and along == 0.0:

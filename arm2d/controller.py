@@ -154,7 +154,7 @@ def _ranges(readings: Readings) -> tuple[NDArray[np.float64], NDArray[np.float64
 
 
 @compiled
-def _raise_ten_to(exponents):
+def _raise_ten_to(exponents: NDArray[np.float64]) -> None:
     """Replace each x in [P, 3] by 10**x, with the same bits on every machine."""
     for p in range(exponents.shape[0]):
         for j in range(exponents.shape[1]):

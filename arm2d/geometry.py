@@ -7,30 +7,33 @@ from math import atan2, cos, degrees, radians, sin
 
 from arm2d import constants as c
 
+Point = tuple[float, float]
+Pose = tuple[float, float, float, float]
 
-def s2_pose(alpha, beta):
+
+def s2_pose(alpha: float, beta: float) -> Pose:
     """J2's position and S2's unit vector."""
     a, b = radians(alpha), radians(alpha + beta)
     return c.S1_LENGTH * cos(a), c.S1_LENGTH * sin(a), cos(b), sin(b)
 
 
-def to_s2(pose, point):
+def to_s2(pose: Pose, point: Point) -> Point:
     """(u, v): along S2 from J2, and to its left."""
     x, y, along_x, along_y = point[0] - pose[0], point[1] - pose[1], pose[2], pose[3]
     return x * along_x + y * along_y, y * along_x - x * along_y
 
 
-def from_s2(pose, u, v):
+def from_s2(pose: Pose, u: float, v: float) -> Point:
     """The point at (u, v)."""
     return pose[0] + u * pose[2] - v * pose[3], pose[1] + u * pose[3] + v * pose[2]
 
 
-def bearing_of(point) -> float:
+def bearing_of(point: Point) -> float:
     """Direction from J1 in [-90, 270) degrees."""
     return (degrees(atan2(point[1], point[0])) + 90.0) % 360.0 - 90.0
 
 
-def offset_of(alpha: float, point) -> float:
+def offset_of(alpha: float, point: Point) -> float:
     """d, the smaller angle between S1 and the bearing of a point [deg]."""
     away = abs(bearing_of(point) - alpha)
     return min(away, 360.0 - away)

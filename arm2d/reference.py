@@ -7,20 +7,26 @@ and would blow up a difference in the last bit to another behaviour.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from math import asin, copysign, degrees, hypot, sqrt
-from typing import NamedTuple
+from typing import Final, Literal, NamedTuple
+
+from numpy.typing import ArrayLike
 
 from arm2d import constants as c
 from arm2d.arithmetic import sigmoid
 from arm2d.controller import decode
-from arm2d.geometry import bearing_of, from_s2, offset_of, s2_pose, to_s2
+from arm2d.geometry import Point, bearing_of, from_s2, offset_of, s2_pose, to_s2
 from arm2d.instructions import ACTION_CODES, OBJECT_CODES, ActionWord, Instruction
 from arm2d.readings import Readings
 
 # Inputs summed group by group: touch; camera sectors 1, 2, 3; bend; words.
 TOUCH, SECTORS, BEND, WORDS = range(2), (range(2, 5), range(5, 8), range(8, 11)), range(11, 12), range(12, 18)
-RIGHT, LEFT = "right", "left"
+RIGHT: Final = "right"
+LEFT: Final = "left"
+
+Side = Literal["right", "left"] | None
 
 
 class Score(NamedTuple):
@@ -33,7 +39,14 @@ class Score(NamedTuple):
     steps: int
 
 
-def run_trial(genotype, instruction: Instruction, alpha, discs, readings: Readings, changes=None) -> Score:
+def run_trial(
+    genotype: ArrayLike,
+    instruction: Instruction,
+    alpha: float,
+    discs: Iterable[Iterable[float]],
+    readings: Readings,
+    changes: tuple[Instruction, Instruction, int] | None = None,
+) -> Score:
     """Carry out one trial (spec section 8) with a genotype [84].
 
     S1 starts at `alpha` [deg], the blue, green and red disc at three (x, y) [cm]. A transition test's
@@ -41,18 +54,20 @@ def run_trial(genotype, instruction: Instruction, alpha, discs, readings: Readin
     """
     r, target = readings, instruction.object
     think = controller(genotype, r)
-    discs, beta, sides = [tuple(each) for each in discs], c.BETA_MAX, [None, None, None]
+    placed: list[Point] = [(x, y) for x, y in discs]
+    sides: list[Side] = [None, None, None]
+    beta = c.BETA_MAX
     heard, later, delay = changes or (instruction, instruction, 0)
     countdown, run, best, stretch = None, 0.0, 0.0, 0.0
     goal = _goal(instruction.action, r)
-    first_offset = offset = offset_of(alpha, discs[target])
+    first_offset = offset = offset_of(alpha, placed[target])
     for step in range(1, c.MAX_STEPS + 1):  # noqa: B007 - the last step's number is part of the score
-        turn1, turn2 = think(sense(alpha, beta, discs, sides, heard, r))
+        turn1, turn2 = think(sense(alpha, beta, placed, sides, heard, r))
         new_alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
         new_beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))
-        discs, sides = touch(alpha, beta, new_alpha, new_beta, discs, sides, r.object_radius)
+        placed, sides = touch(alpha, beta, new_alpha, new_beta, placed, sides, r.object_radius)
         turned, alpha, beta = new_alpha - alpha, new_alpha, new_beta
-        offset = offset_of(alpha, discs[target])
+        offset = offset_of(alpha, placed[target])
         in_view = offset <= c.VIEW_HALF_WIDTH
         if in_view:
             stretch = max(stretch, 1.0 - beta / c.BETA_MAX)
@@ -71,7 +86,7 @@ def run_trial(genotype, instruction: Instruction, alpha, discs, readings: Readin
     return _score(instruction.action, first_offset, offset, collided, best, beta, stretch, step, r)
 
 
-def controller(genotype, readings: Readings):
+def controller(genotype: ArrayLike, readings: Readings) -> Callable[[Sequence[float]], tuple[float, float]]:
     """The CTRNN as a function from 18 inputs to the turns of S1 and S2 (eq. 1 to 3)."""
     net = decode(genotype, readings)
     weights = net.sensory_weights, net.recurrent_weights, net.motor_weights
@@ -82,10 +97,10 @@ def controller(genotype, readings: Readings):
     y = [0.0, 0.0, 0.0]
 
     @cache  # most inputs are 0 or 1
-    def sensory_neuron(value):
+    def sensory_neuron(value: float) -> float:
         return sigmoid(gain * value + input_bias)  # eq. 1
 
-    def think(inputs):
+    def think(inputs: Sequence[float]) -> tuple[float, float]:
         s = [sensory_neuron(value) for value in inputs]
         z = [sigmoid(y[k] + bias[k]) for k in inter]
         for j in inter:
@@ -100,7 +115,9 @@ def controller(genotype, readings: Readings):
     return think
 
 
-def _dot(weights, values, j, indices) -> float:
+def _dot(
+    weights: Sequence[Sequence[float]], values: Sequence[float], j: int, indices: Iterable[int]
+) -> float:
     """Sum of weights[i][j] values[i] in this order; `sum` would round differently from Python 3.12 on."""
     total = 0.0
     for i in indices:
@@ -113,7 +130,14 @@ def _turn(go: float, way: float, size: float) -> float:
     return 0.0 if go <= 0.5 or way == 0.5 else copysign(size, 0.5 - way)
 
 
-def sense(alpha, beta, discs, sides, heard: Instruction, r: Readings) -> list[float]:
+def sense(
+    alpha: float,
+    beta: float,
+    discs: Sequence[Point],
+    sides: Sequence[Side],
+    heard: Instruction,
+    r: Readings,
+) -> list[float]:
     """I1 to I18 (spec section 4)."""
     sectors = [[False] * 3 for _ in range(3)]
     for disc, centre in enumerate(discs):
@@ -135,7 +159,15 @@ def sense(alpha, beta, discs, sides, heard: Instruction, r: Readings) -> list[fl
     return [*map(float, touch + sum(sectors, [])), beta / c.BETA_MAX, *map(float, words)]  # noqa: RUF017
 
 
-def touch(alpha0, beta0, alpha1, beta1, discs, sides, radius):
+def touch(
+    alpha0: float,
+    beta0: float,
+    alpha1: float,
+    beta1: float,
+    discs: Sequence[Point],
+    sides: Sequence[Side],
+    radius: float,
+) -> tuple[list[Point], list[Side]]:
     """Carry, push or leave every disc while the arm moves in four sub-steps (spec section 3)."""
     discs, sides = list(discs), list(sides)
     pose = s2_pose(alpha0, beta0)
@@ -160,7 +192,7 @@ def touch(alpha0, beta0, alpha1, beta1, discs, sides, radius):
     return discs, sides
 
 
-def _is_good(action: ActionWord, offset: float, side, turned: float, r: Readings) -> bool:
+def _is_good(action: ActionWord, offset: float, side: Side, turned: float, r: Readings) -> bool:
     """Whether the step counts for F2 (spec section 8)."""
     if action is ActionWord.INDICATE:
         return offset < r.indicate_cone and not side
@@ -178,7 +210,17 @@ def _goal(action: ActionWord, r: Readings) -> float:
     return r.move_angle if action is ActionWord.MOVE else float(c.GOOD_STEPS_FOR_SUCCESS)
 
 
-def _score(action, first_offset, offset, collided, best, beta, stretch, steps, r: Readings) -> Score:
+def _score(
+    action: ActionWord,
+    first_offset: float,
+    offset: float,
+    collided: bool,
+    best: float,
+    beta: float,
+    stretch: float,
+    steps: int,
+    r: Readings,
+) -> Score:
     """F1 to F3 at the end of the trial."""
     in_view, on_target = offset <= c.VIEW_HALF_WIDTH, float(offset < r.target_cone)
     penalty = c.COLLISION_FACTOR if collided else 1.0

@@ -15,12 +15,13 @@ from arm2d import constants as c
 from arm2d.arithmetic import bearing
 from arm2d.compiling import compiled
 from arm2d.controller import check_genotypes, decode_flat
-from arm2d.kernel import loop
+from arm2d.kernel import exchange
+from arm2d.kernel.loop import run_population
 from arm2d.kernel.world import WORD_CODES, tables_of, world_of
 from arm2d.readings import Readings
 from arm2d.trials import TrialRecord, Trials, TrialScores
 
-NO_RECORDING = np.empty((0, loop.RECORD_COLUMNS))
+NO_RECORDING = np.empty((0, exchange.RECORD_COLUMNS))
 
 
 def run_trials(
@@ -56,8 +57,8 @@ def run_trials(
     outcomes = _empty_outcomes(len(genes), len(trials))
 
     def run(part: slice) -> None:
-        own = loop.Outcomes._make(each[part] for each in outcomes)
-        loop.run_population(networks[part], arrays, world, tables, own, NO_RECORDING)
+        own = exchange.Outcomes._make(each[part] for each in outcomes)
+        run_population(networks[part], arrays, world, tables, own, NO_RECORDING)
 
     parts = _parts(len(genes), threads)
     if len(parts) == 1:
@@ -87,24 +88,24 @@ def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None =
             "take one by its index, such as genotypes[0] and trials[0]"
         )
     outcomes = _empty_outcomes(1, 1)
-    rows = np.empty((c.MAX_STEPS, loop.RECORD_COLUMNS))
+    rows = np.empty((c.MAX_STEPS, exchange.RECORD_COLUMNS))
     networks = decode_flat(genes, readings)
     world, tables = world_of(readings), tables_of(readings)
-    loop.run_population(networks, _arrays_of(trial), world, tables, outcomes, rows)
+    run_population(networks, _arrays_of(trial), world, tables, outcomes, rows)
     scores = TrialScores(*outcomes)
     return _record_of(trial, readings, rows[: scores.steps[0, 0]], scores)
 
 
-def _arrays_of(trials: Trials) -> loop.TrialArrays:
+def _arrays_of(trials: Trials) -> exchange.TrialArrays:
     """The trials as the kernel takes them: discs by bearing and distance, and the words heard."""
     x, y = trials.discs[..., 0], trials.discs[..., 1]
     heard = np.stack([trials.actions, trials.objects], axis=-1)
-    words, delays = np.stack([heard, heard], axis=1), np.full(len(trials), loop.NO_CHANGE)
+    words, delays = np.stack([heard, heard], axis=1), np.full(len(trials), exchange.NO_CHANGE)
     if (changes := trials.changes) is not None:
         first = np.stack([changes.first_actions, changes.first_objects], axis=-1)
         later = np.stack([changes.later_actions, changes.later_objects], axis=-1)
         words, delays = np.stack([first, later], axis=1), changes.delays
-    return loop.TrialArrays(
+    return exchange.TrialArrays(
         action=trials.actions,
         object=trials.objects,
         alpha=trials.alpha,
@@ -125,9 +126,9 @@ def _bearings_of(centres: NDArray) -> NDArray:
     return bearings
 
 
-def _empty_outcomes(n_genotypes: int, n_trials: int) -> loop.Outcomes:
+def _empty_outcomes(n_genotypes: int, n_trials: int) -> exchange.Outcomes:
     shape = (n_genotypes, n_trials)
-    return loop.Outcomes(
+    return exchange.Outcomes(
         f1=np.empty(shape),
         f2=np.empty(shape),
         f3=np.empty(shape),
@@ -144,18 +145,18 @@ def _parts(n: int, threads: int) -> list[slice]:
 
 def _record_of(trial: Trials, readings: Readings, rows: NDArray, scores: TrialScores) -> TrialRecord:
     """A record from the kernel's rows [K, RECORD_COLUMNS]."""
-    beta = np.concatenate([[c.BETA_MAX], rows[:, loop.RECORD_BETA]])
-    sides = rows[:, loop.RECORD_SIDE : loop.RECORD_SIDE + 3].astype(np.int8)
+    beta = np.concatenate([[c.BETA_MAX], rows[:, exchange.RECORD_BETA]])
+    sides = rows[:, exchange.RECORD_SIDE : exchange.RECORD_SIDE + 3].astype(np.int8)
     return TrialRecord(
         instruction=trial.instructions[0],
         readings=readings,
-        alpha=np.concatenate([trial.alpha, rows[:, loop.RECORD_ALPHA]]),
+        alpha=np.concatenate([trial.alpha, rows[:, exchange.RECORD_ALPHA]]),
         beta=beta,
         discs=np.concatenate([trial.discs, _centres_of(trial, rows)]),
         contact=np.concatenate([np.zeros((1, c.N_OBJECTS), np.int8), sides]),
         inputs=_inputs_of(trial, rows, beta),
-        states=rows[:, loop.RECORD_STATE : loop.RECORD_STATE + c.N_INTER].copy(),
-        turns=np.stack([rows[:, loop.RECORD_TURN], np.diff(beta)], axis=-1),
+        states=rows[:, exchange.RECORD_STATE : exchange.RECORD_STATE + c.N_INTER].copy(),
+        turns=np.stack([rows[:, exchange.RECORD_TURN], np.diff(beta)], axis=-1),
         scores=scores,
     )
 
@@ -163,8 +164,8 @@ def _record_of(trial: Trials, readings: Readings, rows: NDArray, scores: TrialSc
 def _centres_of(trial: Trials, rows: NDArray) -> NDArray[np.float64]:
     """The discs' centres after every step, [K, 3, 2]; a disc that never moved keeps its bits."""
     start = _arrays_of(trial)
-    bearings = rows[:, loop.RECORD_BEARING : loop.RECORD_BEARING + 3]
-    distances = rows[:, loop.RECORD_DISTANCE : loop.RECORD_DISTANCE + 3]
+    bearings = rows[:, exchange.RECORD_BEARING : exchange.RECORD_BEARING + 3]
+    distances = rows[:, exchange.RECORD_DISTANCE : exchange.RECORD_DISTANCE + 3]
     angles = np.radians(bearings)
     centres = np.stack([distances * np.cos(angles), distances * np.sin(angles)], axis=-1)
     unmoved = (bearings == start.bearing) & (distances == start.distance)
@@ -173,9 +174,9 @@ def _centres_of(trial: Trials, rows: NDArray) -> NDArray[np.float64]:
 
 def _inputs_of(trial: Trials, rows: NDArray, beta: NDArray) -> NDArray[np.float64]:
     """I1 to I18 of every step, [K, 18], as spec section 4 numbers them."""
-    touch = np.concatenate([[0], rows[:-1, loop.RECORD_TOUCH].astype(int)])
-    camera = rows[:, loop.RECORD_CAMERA].astype(int)
-    heard = _arrays_of(trial).heard[0][rows[:, loop.RECORD_CHANGED].astype(int)]  # [K, 2]
+    touch = np.concatenate([[0], rows[:-1, exchange.RECORD_TOUCH].astype(int)])
+    camera = rows[:, exchange.RECORD_CAMERA].astype(int)
+    heard = _arrays_of(trial).heard[0][rows[:, exchange.RECORD_CHANGED].astype(int)]  # [K, 2]
     return np.concatenate(
         [
             touch[:, np.newaxis] >> np.arange(2) & 1,

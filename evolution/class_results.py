@@ -143,7 +143,9 @@ def _class_behaviour(
     )
 
 
-def _representative(own, mean: NDArray[np.float64]) -> tuple[RunFolder, int, int]:
+def _representative(
+    own: Sequence[tuple[RunFolder, Observation, NDArray[np.bool_]]], mean: NDArray[np.float64]
+) -> tuple[RunFolder, int, int]:
     """The observed agent whose success is nearest to the mean; the earliest of equals."""
     agents = [
         (float(np.abs(o.intact[i] - mean).sum()), n, int(i))

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Final
 
 import matplotlib as mpl
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from arm2d import Condition
@@ -76,7 +77,7 @@ def fans_figure(
     return figure
 
 
-def _trim(above, below, end: float, column: int, lowest: bool) -> None:
+def _trim(above: Axes, below: Axes, end: float, column: int, lowest: bool) -> None:
     """Limits and labels of a pair of panels."""
     for axes in (above, below):
         axes.set_xlim(0, end)

@@ -10,7 +10,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from arm2d import NON_EXPERIENCED
 from arm2d.drawing import INK, OBJECT_COLOURS
@@ -153,6 +153,6 @@ def _column(skills: Skills, column: int) -> tuple[NDArray[np.float64], int, int]
     return skills.shares[:, column], int(skills.first[column]), int(skills.for_good[column])
 
 
-def _root(values):
+def _root(values: ArrayLike) -> NDArray[np.float64]:
     """The square root, which gives the early generations room; 0 for what an axis tries below it."""
     return np.sqrt(np.maximum(values, 0))

@@ -139,7 +139,7 @@ def _short(transition: Transition, test: str) -> str:
     return f"{before.object.name.capitalize()} → {after.object.name.capitalize()} ({before.action.name})"
 
 
-def _category_colour(category: int):
+def _category_colour(category: int) -> tuple[float, float, float, float]:
     return CATEGORY_MAP(category / (N_CATEGORIES - 1))
 
 

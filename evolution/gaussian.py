@@ -12,7 +12,9 @@ from arm2d.compiling import compiled
 
 
 @compiled(allocates=False)
-def fill_gaussian(radial, angular, out):
+def fill_gaussian(
+    radial: NDArray[np.float64], angular: NDArray[np.float64], out: NDArray[np.float64]
+) -> None:
     """Standard normal numbers from pairs of uniform ones, by the cosine half of Box and Muller.
 
         out = sqrt(-2 ln(1 - radial)) cos(2 pi angular)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from evolution.generalisers import CHANCE_RANK, mean_rank_against_chance
+from collections.abc import Sequence
+
+from evolution.generalisers import CHANCE_RANK, Generalisers, mean_rank_against_chance
 from evolution.report_text import TITLES, of, p_value
 from evolution.results import ConditionResults
 
@@ -39,7 +41,7 @@ def longest_spell(each: ConditionResults) -> str:
     return f"{_longest(runs)[0]:,}" if runs else "no such agent"
 
 
-def _longest(runs) -> tuple[int, int, int]:
+def _longest(runs: Sequence[Generalisers]) -> tuple[int, int, int]:
     """Longest spell, stay and line of all runs."""
     return (
         max(int(found.spells.max()) for found in runs),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from types import MappingProxyType
 from typing import Final
 
@@ -44,7 +44,7 @@ def main_lines(results: Results) -> list[Line]:
     """Everything the paper gives a number or a word for, but Table II's other categories."""
     shown = list(results.conditions.items())
 
-    def line(what: str, pair) -> Line:
+    def line(what: str, pair: Callable[[Condition, ConditionResults], tuple[str, str]]) -> Line:
         return Line(what, tuple(pair(condition, each) for condition, each in shown))
 
     lines = [

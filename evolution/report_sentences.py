@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from arm2d import NON_EXPERIENCED, Condition
 from evolution import published
 from evolution.notable import best_agent
@@ -82,7 +84,7 @@ def _difference(results: Results, shown: dict[Condition, ConditionResults]) -> s
     )
 
 
-def _and(parts) -> str:
+def _and(parts: Iterable[str]) -> str:
     """Such as "a, b and c"."""
     *first, last = parts
     return f"{', '.join(first)} and {last}" if first else last

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings
 from arm2d import constants as c
-from arm2d.reference import controller, sense
+from arm2d.reference import LEFT, RIGHT, Side, controller, sense
 from mujoco_port.contacts import LEFT_SIDE, RIGHT_SIDE
 from mujoco_port.control import Body
 from mujoco_port.physical_rollout import Angles, PhysicalRecord
@@ -54,7 +54,8 @@ class ClosedLoop:
         alpha = self._here[0]
         beta = beta_of(self._body.robot.plane, self._body.hand)
         sides = felt(so_far.contact[-SKIN_MEMORY:])
-        inputs = sense(alpha, beta, seen, sides, self._heard, self._readings)
+        places = [(x, y) for x, y in seen.tolist()]
+        inputs = sense(alpha, beta, places, sides, self._heard, self._readings)
         turn1, turn2 = self._think(inputs)
         self._here, (alpha, beta) = self._next, self._next
         self._next = (
@@ -64,7 +65,7 @@ class ClosedLoop:
         return self._next
 
 
-def felt(contact: NDArray[np.uint8]) -> list[str | None]:
+def felt(contact: NDArray[np.uint8]) -> list[Side]:
     """On which side each object is felt, from the latest rows [N, 3] of the contacts."""
     bits = np.bitwise_or.reduce(contact, axis=0) if len(contact) else np.zeros(3, np.uint8)
-    return ["right" if each & RIGHT_SIDE else "left" if each & LEFT_SIDE else None for each in bits]
+    return [RIGHT if each & RIGHT_SIDE else LEFT if each & LEFT_SIDE else None for each in bits]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings
 from arm2d import constants as c
-from arm2d.reference import controller, sense, touch
+from arm2d.reference import Side, controller, sense, touch
 from mujoco_port.physical_rollout import Angles, PhysicalRecord
 
 
@@ -36,7 +36,9 @@ def planar_angles(
         delay: Steps from what is sensed to the turn that answers to it, beyond the step of the 2D world.
     """
     think = controller(genotype, readings)
-    beta, places, sides = c.BETA_MAX, [tuple(each) for each in discs], [None, None, None]
+    places = [(x, y) for x, y in discs.tolist()]
+    sides: list[Side] = [None, None, None]
+    beta = c.BETA_MAX
     turns = deque([(0.0, 0.0)] * delay)
     while True:
         yield alpha, beta

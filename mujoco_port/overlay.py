@@ -9,7 +9,12 @@ from arm2d.compiling import compiled
 
 
 @compiled
-def lay_over(picture, depth, backdrop, combined):
+def lay_over(
+    picture: NDArray[np.uint8],
+    depth: NDArray[np.float32],
+    backdrop: NDArray[np.uint8],
+    combined: NDArray[np.uint8],
+) -> None:
     """Take each pixel from the picture where something is drawn, else from the backdrop.
 
     Args:

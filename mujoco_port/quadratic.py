@@ -13,8 +13,13 @@ All compiled functions stand in this one file: the cache notices changes in a fu
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from arm2d.compiling import compiled
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Flags = NDArray[np.bool_]
 
 MAX_CHANGES = 40  # of the active set; each holds or releases one joint, a handful is usual
 RELEASE_TOLERANCE = 1e-10  # on a multiplier, so that rounding does not hold and release in turn
@@ -25,7 +30,19 @@ MAX_STEP = 0.3  # [rad], of one joint in one step: beyond, the linear model says
 
 
 @compiled
-def relaxed(angles, jacobian, hand, error, heading, down, rest, weights, wishes, lower, upper):
+def relaxed(
+    angles: Floats,
+    jacobian: Floats,
+    hand: Floats,
+    error: Floats,
+    heading: float,
+    down: Floats,
+    rest: Floats,
+    weights: Floats,
+    wishes: Floats,
+    lower: Floats,
+    upper: Floats,
+) -> Floats:
     """Give the angles [J] after a proximal Gauss-Newton step on position, rest, heading and level together.
 
     Args:
@@ -73,7 +90,15 @@ def relaxed(angles, jacobian, hand, error, heading, down, rest, weights, wishes,
 
 
 @compiled
-def bounded(hessian, gradient, jacobian, error, angles, lower, upper):
+def bounded(
+    hessian: Floats,
+    gradient: Floats,
+    jacobian: Floats,
+    error: Floats,
+    angles: Floats,
+    lower: Floats,
+    upper: Floats,
+) -> Floats:
     """Give the angles [J] after the step that solves the programme within the joint limits and `MAX_STEP`."""
     down = np.maximum(lower - angles, -MAX_STEP)
     up = np.minimum(upper - angles, MAX_STEP)
@@ -82,7 +107,9 @@ def bounded(hessian, gradient, jacobian, error, angles, lower, upper):
 
 
 @compiled
-def solve_bounded(hessian, gradient, jacobian, error, lower, upper):
+def solve_bounded(
+    hessian: Floats, gradient: Floats, jacobian: Floats, error: Floats, lower: Floats, upper: Floats
+) -> Floats:
     """Solve the programme above.
 
     Args:
@@ -114,18 +141,49 @@ def solve_bounded(hessian, gradient, jacobian, error, lower, upper):
 
 
 @compiled
-def solve_free(hessian, gradient, jacobian, error, held, step):
+def solve_free(
+    hessian: Floats, gradient: Floats, jacobian: Floats, error: Floats, held: Flags, step: Floats
+) -> Floats:
     """Set the free entries of `step` to the solution with equalities only, the held ones staying.
 
     Returns:
         J' lambda, [n], the pull of the equalities on every joint.
     """
-    n, m = gradient.size, error.size
     free = np.flatnonzero(~held)
-    k = free.size
-    # Columns: H_ff^-1 J_f' for the Schur complement, and the minimum without the equalities.
-    columns = np.empty((k, m + 1))
-    factor = np.empty((k, k))
+    columns = free_minimum(hessian, gradient, jacobian, error.size, held, free, step)
+    multipliers = equality_multipliers(jacobian, error, held, free, step, columns)
+    m = error.size
+    for a in range(free.size):
+        step[free[a]] = columns[a, m]
+        for r in range(m):
+            step[free[a]] += columns[a, r] * multipliers[r, 0]
+    reaction = np.zeros(gradient.size)
+    for j in range(gradient.size):
+        for r in range(m):
+            reaction[j] += jacobian[r, j] * multipliers[r, 0]
+    return reaction
+
+
+@compiled
+def free_minimum(
+    hessian: Floats, gradient: Floats, jacobian: Floats, m: int, held: Flags, free: Integers, step: Floats
+) -> Floats:
+    """Solve for the k free joints without the equalities.
+
+    Args:
+        hessian: H, [n, n].
+        gradient: g, [n].
+        jacobian: J, [at least m, n].
+        m: How many equalities there are.
+        held: [n].
+        free: [k], which joints are not held.
+        step: d, [n], of which the held entries count.
+
+    Returns:
+        [k, m + 1]: the columns of H_ff^-1 J_f', and last the minimum itself.
+    """
+    k, n = free.size, gradient.size
+    columns, factor = np.empty((k, m + 1)), np.empty((k, k))
     for a in range(k):
         for b in range(k):
             factor[a, b] = hessian[free[a], free[b]]
@@ -137,15 +195,22 @@ def solve_free(hessian, gradient, jacobian, error, held, step):
         for r in range(m):
             columns[a, r] = jacobian[r, free[a]]
     solve_positive(factor, columns)
+    return columns
 
-    schur = np.zeros((m, m))
-    missing = np.empty((m, 1))
+
+@compiled
+def equality_multipliers(
+    jacobian: Floats, error: Floats, held: Flags, free: Integers, step: Floats, columns: Floats
+) -> Floats:
+    """Give lambda, [m, 1], from what the minimum of the free joints leaves of e (Schur complement of H)."""
+    m = error.size
+    schur, missing = np.zeros((m, m)), np.empty((m, 1))
     for r in range(m):
         gap = error[r]
-        for j in range(n):
+        for j in range(step.size):
             if held[j]:
                 gap -= jacobian[r, j] * step[j]
-        for a in range(k):
+        for a in range(free.size):
             gap -= jacobian[r, free[a]] * columns[a, m]
             for c in range(m):
                 schur[r, c] += jacobian[r, free[a]] * columns[a, c]
@@ -154,20 +219,11 @@ def solve_free(hessian, gradient, jacobian, error, held, step):
     for r in range(m):
         schur[r, r] += damping
     solve_positive(schur, missing)
-
-    for a in range(k):
-        step[free[a]] = columns[a, m]
-        for r in range(m):
-            step[free[a]] += columns[a, r] * missing[r, 0]
-    reaction = np.zeros(n)
-    for j in range(n):
-        for r in range(m):
-            reaction[j] += jacobian[r, j] * missing[r, 0]
-    return reaction
+    return missing
 
 
 @compiled
-def solve_positive(matrix, columns):
+def solve_positive(matrix: Floats, columns: Floats) -> None:
     """Solve matrix @ X = columns in place for a symmetric positive definite matrix [k, k], by Cholesky."""
     k, m = columns.shape
     for i in range(k):
@@ -188,7 +244,7 @@ def solve_positive(matrix, columns):
 
 
 @compiled
-def furthest_outside(step, lower, upper, held):
+def furthest_outside(step: Floats, lower: Floats, upper: Floats, held: Flags) -> int:
     """Give the free joint that leaves its bounds furthest, or -1."""
     worst, distance = -1, 0.0
     for i in range(step.size):
@@ -199,7 +255,7 @@ def furthest_outside(step, lower, upper, held):
 
 
 @compiled
-def most_eager(slope, step, upper, held):
+def most_eager(slope: Floats, step: Floats, upper: Floats, held: Flags) -> int:
     """Give the held joint whose cost falls fastest on the way back inside, or -1.
 
     Args:

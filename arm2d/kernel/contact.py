@@ -39,8 +39,10 @@ from arm2d.kernel.lanes import (
     TOUCH,
     TRIAL,
     TURN,
+    Floats,
+    Integers,
 )
-from arm2d.kernel.world import beta_key
+from arm2d.kernel.world import World, beta_key
 
 # In radians, and 0.3 % more.
 LITTLE_MORE_THAN_A_DEGREE: Final = 0.0175
@@ -59,7 +61,9 @@ LARGEST_BETA = np.array([_largest_beta_that_reaches(float(distance)) for distanc
 
 
 @compiled(allocates=False)
-def touch_discs(s, n, lanes, world, beta_sines, objects):
+def touch_discs(
+    s: Floats, n: Integers, lanes: int, world: World, beta_sines: Floats, objects: Integers
+) -> None:
     """Resolve the discs of the lanes marked in NEAR; the others' cannot have changed."""
     for i in range(lanes):
         if n[NEAR + i] == 0:
@@ -84,7 +88,7 @@ def touch_discs(s, n, lanes, world, beta_sines, objects):
 
 
 @compiled(allocates=False)
-def _resolve(s, n, i, at, world, beta_sines):
+def _resolve(s: Floats, n: Integers, i: int, at: int, world: World, beta_sines: Floats) -> None:
     """Move one disc with or out of S2's way through the sub-steps of this step's motion.
 
     Gaps are compared by their squares.
@@ -135,7 +139,7 @@ def _resolve(s, n, i, at, world, beta_sines):
 
 
 @compiled(allocates=False)
-def place_disc(s, at, bearing_deg, distance, world):
+def place_disc(s: Floats, at: int, bearing_deg: float, distance: float, world: World) -> None:
     """Put a disc, the one of lane and colour `at`, at a bearing [deg] and a distance [cm] from J1."""
     s[BEARING + at] = bearing_deg
     s[DISTANCE + at] = distance
@@ -149,14 +153,14 @@ def place_disc(s, at, bearing_deg, distance, world):
 
 
 @compiled(allocates=False)
-def set_limit(s, i, world):
+def set_limit(s: Floats, i: int, world: World) -> None:
     """Work out from which beta on S2 may meet a disc of lane i within a step."""
     nearest = min(s[DISTANCE + i], s[DISTANCE + N_LANES + i], s[DISTANCE + 2 * N_LANES + i])
     s[LIMIT + i] = LARGEST_BETA[int(nearest - world.radius)] + world.turn
 
 
 @compiled(allocates=False)
-def _sub_step(turn, world):
+def _sub_step(turn: float, world: World) -> tuple[float, float]:
     """(sine, cosine) of one sub-step of a joint's turn [deg]; a turn is full unless a bound cut it."""
     if turn == 0.0:
         return 0.0, 1.0
@@ -168,14 +172,14 @@ def _sub_step(turn, world):
 
 
 @compiled(allocates=False)
-def _to_s2(x, y, sin_beta, cos_beta):
+def _to_s2(x: float, y: float, sin_beta: float, cos_beta: float) -> tuple[float, float]:
     """(u, v) along and to the left of S2, of the point (x, y) in S1's frame."""
     x -= S1_LENGTH
     return x * cos_beta + y * sin_beta, y * cos_beta - x * sin_beta
 
 
 @compiled(allocates=False)
-def _beyond(u):
+def _beyond(u: float) -> float:
     """How far u lies beyond either end of S2 [cm]."""
     if u < 0.0:
         return -u

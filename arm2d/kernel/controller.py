@@ -3,7 +3,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from arm2d.arithmetic import sigmoid
 from arm2d.compiling import compiled
@@ -33,6 +32,8 @@ from arm2d.kernel.lanes import (
     STEP,
     TOUCH,
     TURN,
+    Floats,
+    Integers,
     Y,
     Z,
 )
@@ -66,14 +67,14 @@ class Drives(NamedTuple):
         words: [4, 3, ROW] by action and object.
     """
 
-    touch: NDArray[np.float64]
-    camera: NDArray[np.float64]
-    bend: NDArray[np.float64]
-    words: NDArray[np.float64]
+    touch: Floats
+    camera: Floats
+    bend: Floats
+    words: Floats
 
 
 @compiled
-def tabulate_drives(network, betas, codes, drives):
+def tabulate_drives(network: Floats, betas: Floats, codes: Integers, drives: Drives) -> None:
     """Fill in what each state of each kind of input adds to the three inter-neurons.
 
     Args:
@@ -82,39 +83,50 @@ def tabulate_drives(network, betas, codes, drives):
         codes: [7, 3], the words' codes: three objects, then four actions.
         drives: `Drives` of this network.
     """
-    touch, camera, bend, words = drives
     bias, gain = network[INPUT_BIAS], network[GAIN]
     off, on = sigmoid(bias), sigmoid(gain + bias)
     weights = network[: N_INPUTS * N_INTER].reshape(N_INPUTS, N_INTER)
-    sectors = np.empty((3, 8, N_INTER))
     for j in range(N_INTER):
         for code in range(4):
-            touch[code, j] = _sum_of_bits(weights, 0, 2, code, off, on, j)
-        for sector in range(3):
-            for code in range(8):
-                first = FIRST_CAMERA_INPUT + 3 * sector
-                sectors[sector, code, j] = _sum_of_bits(weights, first, 3, code, off, on, j)
+            drives.touch[code, j] = _sum_of_bits(weights, 0, 2, code, off, on, j)
         for beta in betas:
-            bend[beta_key(beta), j] = weights[BEND_INPUT, j] * sigmoid(gain * (beta / BETA_MAX) + bias)
-        for action in range(4):
-            for object_ in range(3):
-                total = 0.0
-                for i in range(3):
-                    total += weights[OBJECT_WORD_INPUTS + i, j] * (on if codes[object_, i] else off)
-                for i in range(3):
-                    total += weights[ACTION_WORD_INPUTS + i, j] * (on if codes[3 + action, i] else off)
-                words[action, object_, j] = total
+            output = sigmoid(gain * (beta / BETA_MAX) + bias)
+            drives.bend[beta_key(beta), j] = weights[BEND_INPUT, j] * output
+        _tabulate_camera(weights, off, on, j, drives.camera)
+        _tabulate_words(weights, off, on, j, codes, drives.words)
+
+
+@compiled
+def _tabulate_camera(weights: Floats, off: float, on: float, j: int, camera: Floats) -> None:
+    """Fill in what each of the 512 codes of the three sectors drives in inter-neuron j."""
+    sectors = np.empty((3, 8))
+    for sector in range(3):
+        for code in range(8):
+            sectors[sector, code] = _sum_of_bits(
+                weights, FIRST_CAMERA_INPUT + 3 * sector, 3, code, off, on, j
+            )
     for left in range(8):
         for middle in range(8):
             for right in range(8):
-                for j in range(N_INTER):
-                    camera[64 * left + 8 * middle + right, j] = (
-                        sectors[0, right, j] + sectors[1, middle, j] + sectors[2, left, j]
-                    )
+                drive = sectors[0, right] + sectors[1, middle] + sectors[2, left]
+                camera[64 * left + 8 * middle + right, j] = drive
 
 
 @compiled(allocates=False)
-def _sum_of_bits(weights, first, count, code, off, on, j):
+def _tabulate_words(weights: Floats, off: float, on: float, j: int, codes: Integers, words: Floats) -> None:
+    """Fill in what each instruction drives in inter-neuron j, object word first."""
+    for action in range(4):
+        for object_ in range(3):
+            total = 0.0
+            for i in range(3):
+                total += weights[OBJECT_WORD_INPUTS + i, j] * (on if codes[object_, i] else off)
+            for i in range(3):
+                total += weights[ACTION_WORD_INPUTS + i, j] * (on if codes[3 + action, i] else off)
+            words[action, object_, j] = total
+
+
+@compiled(allocates=False)
+def _sum_of_bits(weights: Floats, first: int, count: int, code: int, off: float, on: float, j: int) -> float:
     """Drive on inter-neuron j of `count` inputs from `first` on, whose values are the bits of `code`."""
     total = 0.0
     for i in range(count):
@@ -123,7 +135,7 @@ def _sum_of_bits(weights, first, count, code, off, on, j):
 
 
 @compiled(allocates=False)
-def sense_camera(s, n, lanes, right, left):
+def sense_camera(s: Floats, n: Integers, lanes: int, right: float, left: float) -> None:
     """Set the nine camera bits of each lane; alpha at or beyond `right` or `left` [deg] sees white."""
     for i in range(lanes):
         alpha = s[ALPHA + i]
@@ -135,7 +147,7 @@ def sense_camera(s, n, lanes, right, left):
 
 
 @compiled(allocates=False)
-def _sector_bits(low, high):
+def _sector_bits(low: float, high: float) -> int:
     """Bits 0, 3 and 6: the sectors that meet [low, high], bearings relative to the camera [deg]."""
     first = (low < -MIDDLE_SECTOR_HALF_WIDTH) & (high >= -VIEW_HALF_WIDTH)
     middle = (low <= MIDDLE_SECTOR_HALF_WIDTH) & (high >= -MIDDLE_SECTOR_HALF_WIDTH)
@@ -144,7 +156,9 @@ def _sector_bits(low, high):
 
 
 @compiled(allocates=False)
-def gather_drives(s, n, d, lanes, touch, camera, bend):
+def gather_drives(
+    s: Floats, n: Integers, d: Floats, lanes: int, touch: Floats, camera: Floats, bend: Floats
+) -> None:
     """Add up what words, touch, camera and bend drive (eq. 1 and the first sum of eq. 2).
 
     Rows of the tables are read and added as vectors.
@@ -159,7 +173,7 @@ def gather_drives(s, n, d, lanes, touch, camera, bend):
 
 
 @compiled(allocates=False)
-def think(s, lanes, network):
+def think(s: Floats, lanes: int, network: Floats) -> None:
     """Advance the inter-neurons by one Euler step (eq. 2)."""
     w00, w01, w02 = network[RECURRENT], network[RECURRENT + 1], network[RECURRENT + 2]
     w10, w11, w12 = network[RECURRENT + 3], network[RECURRENT + 4], network[RECURRENT + 5]
@@ -182,7 +196,7 @@ def think(s, lanes, network):
 
 
 @compiled(allocates=False)
-def turn(s, n, lanes, network, turn_size):
+def turn(s: Floats, n: Integers, lanes: int, network: Floats, turn_size: float) -> int:
     """Turn the joints as the motor neurons say (eq. 3).
 
     Only signs matter: f > 0.5 where the neuron's input is positive.
@@ -211,28 +225,25 @@ def turn(s, n, lanes, network, turn_size):
         way1 = way1_0 * z0 + way1_1 * z1 + way1_2 * z2 + bias
         go2 = go2_0 * z0 + go2_1 * z1 + go2_2 * z2 + bias
         way2 = way2_0 * z0 + way2_1 * z1 + way2_2 * z2 + bias
-        turn1 = turn_size if way1 < 0.0 else 0.0
-        turn1 = -turn_size if way1 > 0.0 else turn1
-        turn1 = turn1 if go1 > 0.0 else 0.0
-        alpha = s[ALPHA + i]
-        after = alpha + turn1
-        after = after if after > ALPHA_MIN else ALPHA_MIN
-        after = after if after < ALPHA_MAX else ALPHA_MAX
-        turned = after - alpha
-        s[ALPHA + i] = after
-        s[TURN + i] = turned
-        turn2 = turn_size if way2 < 0.0 else 0.0
-        turn2 = -turn_size if way2 > 0.0 else turn2
-        turn2 = turn2 if go2 > 0.0 else 0.0
-        beta = s[BETA + i]
-        after = beta + turn2
-        after = after if after > BETA_MIN else BETA_MIN
-        after = after if after < BETA_MAX else BETA_MAX
-        bent = after - beta
-        s[BETA + i] = after
-        s[BEND + i] = bent
+        alpha, beta = s[ALPHA + i], s[BETA + i]
+        new_alpha = _turned(alpha, go1, way1, turn_size, ALPHA_MIN, ALPHA_MAX)
+        new_beta = _turned(beta, go2, way2, turn_size, BETA_MIN, BETA_MAX)
+        turned, bent = new_alpha - alpha, new_beta - beta
+        s[ALPHA + i], s[TURN + i] = new_alpha, turned
+        s[BETA + i], s[BEND + i] = new_beta, bent
         moved = (turned != 0.0) | (bent != 0.0) | (n[STEP + i] == 0)
         may_meet = 1 if (beta < s[LIMIT + i]) & moved else 0
         n[NEAR + i] = may_meet
         near += may_meet
     return near
+
+
+@compiled(allocates=False)
+def _turned(angle: float, go: float, way: float, size: float, low: float, high: float) -> float:
+    """Give the angle [deg] after a turn, cut off at the joint's bounds; without a branch, for vectors."""
+    turn = size if way < 0.0 else 0.0
+    turn = -size if way > 0.0 else turn
+    turn = turn if go > 0.0 else 0.0
+    after = angle + turn
+    after = after if after > low else low
+    return after if after < high else high

@@ -7,6 +7,13 @@ The drive of the words heard stands apart, in rows: `d[ROW * i]` and on.
 
 from typing import Final
 
+import numpy as np
+from numpy.typing import NDArray
+
+# What the kernel's arguments are, when they are arrays.
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
 N_LANES: Final = 32
 # Loops run over whole blocks of lanes; idle lanes hold the finite values of an ended trial.
 BLOCK: Final = 4

@@ -1,9 +1,8 @@
 """The trials of each genotype from first to last: lanes start, advance, end and are refilled."""
 
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from arm2d.arithmetic import sigmoid
 from arm2d.compiling import compiled
@@ -20,7 +19,8 @@ from arm2d.kernel.controller import (
     think,
     turn,
 )
-from arm2d.kernel.lanes import BLOCK, N_FLOAT_FIELDS, N_INTEGER_FIELDS, N_LANES, ROW
+from arm2d.kernel.exchange import NO_CHANGE, Outcomes, TrialArrays, record_step
+from arm2d.kernel.lanes import BLOCK, N_FLOAT_FIELDS, N_INTEGER_FIELDS, N_LANES, ROW, Floats, Integers
 from arm2d.kernel.scores import (
     final_scores,
     offset_from_target,
@@ -28,67 +28,26 @@ from arm2d.kernel.scores import (
     score_step,
     set_criterion,
 )
-from arm2d.kernel.world import N_BETA_KEYS
+from arm2d.kernel.world import N_BETA_KEYS, World, WorldTables
 
 
-class TrialArrays(NamedTuple):
-    """T trials as plain arrays.
-
-    Attributes:
-        action: [T] and
-        object: [T], the instruction that is scored.
-        alpha: [T] in [deg].
-        bearing: [T, 3] of the discs in [deg].
-        distance: [T, 3] of the discs from J1 in [cm].
-        heard: [T, 2, 2], (action, object) heard before and after the words change.
-        delay: [T], steps from the target's coming into view to the change, or NO_CHANGE.
-    """
-
-    action: NDArray[np.int64]
-    object: NDArray[np.int64]
-    alpha: NDArray[np.float64]
-    bearing: NDArray[np.float64]
-    distance: NDArray[np.float64]
-    heard: NDArray[np.int64]
-    delay: NDArray[np.int64]
-
-
-class Outcomes(NamedTuple):
-    """What becomes of P genotypes in T trials, each [P, T]; filled in by the kernel."""
-
-    f1: NDArray[np.float64]
-    f2: NDArray[np.float64]
-    f3: NDArray[np.float64]
-    success: NDArray[np.bool_]
-    steps: NDArray[np.int64]
-
-
-NO_CHANGE: Final = -1
-
-# Columns of a recording; one row for each step.
-RECORD_ALPHA: Final = 0
-RECORD_BETA: Final = 1
-RECORD_TURN: Final = 2
-RECORD_STATE: Final = 3
-RECORD_BEARING: Final = 6
-RECORD_DISTANCE: Final = 9
-RECORD_SIDE: Final = 12
-RECORD_CAMERA: Final = 15
-RECORD_TOUCH: Final = 16
-RECORD_CHANGED: Final = 17
-RECORD_COLUMNS: Final = 18
-
-
-class _Lanes(NamedTuple):
+class Lanes(NamedTuple):
     """The flat arrays of arm2d.kernel.lanes."""
 
-    s: NDArray[np.float64]
-    n: NDArray[np.int64]
-    d: NDArray[np.float64]
+    s: Floats
+    n: Integers
+    d: Floats
 
 
 @compiled(nogil=True)
-def run_population(networks, trials, world, tables, outcomes, recording):
+def run_population(
+    networks: Floats,
+    trials: TrialArrays,
+    world: World,
+    tables: WorldTables,
+    outcomes: Outcomes,
+    recording: Floats,
+) -> None:
     """Run all trials with every network, one network after the other.
 
     Args:
@@ -99,7 +58,7 @@ def run_population(networks, trials, world, tables, outcomes, recording):
         outcomes: `Outcomes` to be filled in.
         recording: [K, RECORD_COLUMNS] for a single trial of a single network, else [0, RECORD_COLUMNS].
     """
-    lanes = _Lanes(
+    lanes = Lanes(
         np.zeros(N_FLOAT_FIELDS * N_LANES),
         np.zeros(N_INTEGER_FIELDS * N_LANES, np.int64),
         np.zeros(ROW * N_LANES),
@@ -116,14 +75,24 @@ def run_population(networks, trials, world, tables, outcomes, recording):
 
 
 @compiled(allocates=False)
-def _run_network(p, network, trials, world, tables, lanes, drives, outcomes, recording):
+def _run_network(
+    p: int,
+    network: Floats,
+    trials: TrialArrays,
+    world: World,
+    tables: WorldTables,
+    lanes: Lanes,
+    drives: Drives,
+    outcomes: Outcomes,
+    recording: Floats,
+) -> None:
     """Run all trials with one network, N_LANES at a time."""
     s, n, d = lanes
     touch, camera, bend, words = drives
     n_trials, objects, changing = len(trials.action), trials.object, _any_change(trials.delay)
     active, waiting = 0, 0
     while active < N_LANES and waiting < n_trials:
-        _start(s, n, d, active, waiting, network, trials, world, words)
+        _start(lanes, active, waiting, network, trials, world, words)
         active, waiting = active + 1, waiting + 1
     steps = 0
     while active > 0:
@@ -134,7 +103,7 @@ def _run_network(p, network, trials, world, tables, lanes, drives, outcomes, rec
         if turn(s, n, width, network, world.turn) > 0:
             touch_discs(s, n, active, world, tables.beta_sines, objects)
         if steps < len(recording):
-            _record(s, n, recording[steps])
+            record_step(s, n, recording[steps])
         if world.best_stretch:
             remember_stretch(s, active)
         if changing:
@@ -149,15 +118,15 @@ def _run_network(p, network, trials, world, tables, lanes, drives, outcomes, rec
                 continue
             _finish(s, n, i, p, trials, world, outcomes)
             if waiting < n_trials:
-                _start(s, n, d, i, waiting, network, trials, world, words)
+                _start(lanes, i, waiting, network, trials, world, words)
                 waiting += 1
             else:
                 active -= 1
-                _copy_lane(s, n, d, active, i)
+                _copy_lane(lanes, active, i)
 
 
 @compiled(allocates=False)
-def _any_change(delays):
+def _any_change(delays: Integers) -> bool:
     """Whether the words change in any trial."""
     count = 0
     for delay in delays:
@@ -166,8 +135,11 @@ def _any_change(delays):
 
 
 @compiled(allocates=False)
-def _start(s, n, d, i, trial, network, trials, world, words):
+def _start(
+    lanes: Lanes, i: int, trial: int, network: Floats, trials: TrialArrays, world: World, words: Floats
+) -> None:
     """Put lane i at the start of a trial."""
+    s, n, d = lanes
     n[at.TRIAL + i] = trial
     s[at.ALPHA + i] = trials.alpha[trial]
     s[at.BETA + i] = BETA_MAX
@@ -194,14 +166,14 @@ def _start(s, n, d, i, trial, network, trials, world, words):
 
 
 @compiled(allocates=False)
-def _hear(d, i, instruction, words):
+def _hear(d: Floats, i: int, instruction: Integers, words: Floats) -> None:
     """Let lane i hear an instruction (action, object)."""
     for j in range(N_INTER):
         d[ROW * i + j] = words[instruction[0], instruction[1], j]
 
 
 @compiled(allocates=False)
-def _change_words(s, n, d, lanes, trials, words):
+def _change_words(s: Floats, n: Integers, d: Floats, lanes: int, trials: TrialArrays, words: Floats) -> None:
     """Change the instruction where the drawn number of steps has passed since the target was seen."""
     for i in range(lanes):
         delay = trials.delay[n[at.TRIAL + i]]
@@ -217,7 +189,9 @@ def _change_words(s, n, d, lanes, trials, words):
 
 
 @compiled(allocates=False)
-def _finish(s, n, i, p, trials, world, outcomes):
+def _finish(
+    s: Floats, n: Integers, i: int, p: int, trials: TrialArrays, world: World, outcomes: Outcomes
+) -> None:
     """Score the ended trial of lane i."""
     trial = n[at.TRIAL + i]
     f1, f2, f3, success = final_scores(s, n, i, world, trials.action[trial])
@@ -229,28 +203,12 @@ def _finish(s, n, i, p, trials, world, outcomes):
 
 
 @compiled(allocates=False)
-def _copy_lane(s, n, d, source, target):
+def _copy_lane(lanes: Lanes, source: int, target: int) -> None:
     """Move a trial to another lane."""
+    s, n, d = lanes
     for field in range(N_FLOAT_FIELDS):
         s[field * N_LANES + target] = s[field * N_LANES + source]
     for j in range(ROW):
         d[ROW * target + j] = d[ROW * source + j]
     for field in range(N_INTEGER_FIELDS):
         n[field * N_LANES + target] = n[field * N_LANES + source]
-
-
-@compiled(allocates=False)
-def _record(s, n, row):
-    """Write down lane 0 after a step, before the words may change."""
-    row[RECORD_ALPHA] = s[at.ALPHA]
-    row[RECORD_BETA] = s[at.BETA]
-    row[RECORD_TURN] = s[at.TURN]
-    row[RECORD_CAMERA] = n[at.CAMERA]
-    row[RECORD_TOUCH] = n[at.TOUCH]
-    row[RECORD_CHANGED] = 1.0 if n[at.WAIT] == at.CHANGED else 0.0
-    for j in range(N_INTER):
-        row[RECORD_STATE + j] = s[at.Y + j * N_LANES]
-    for disc in range(N_OBJECTS):
-        row[RECORD_BEARING + disc] = s[at.BEARING + disc * N_LANES]
-        row[RECORD_DISTANCE + disc] = s[at.DISTANCE + disc * N_LANES]
-        row[RECORD_SIDE + disc] = n[at.SIDE + disc * N_LANES]

@@ -32,7 +32,10 @@ from arm2d.kernel.lanes import (
     TARGET,
     TARGET_SIDE,
     TURN,
+    Floats,
+    Integers,
 )
+from arm2d.kernel.world import World
 
 MOVE, TOUCH = int(ActionWord.MOVE), int(ActionWord.TOUCH)
 INDICATE, IGNORE = int(ActionWord.INDICATE), int(ActionWord.IGNORE)
@@ -60,7 +63,7 @@ CRITERIA = np.array([_truth_table(action) for action in ActionWord])
 
 
 @compiled(allocates=False)
-def set_criterion(s, n, i, action, world):
+def set_criterion(s: Floats, n: Integers, i: int, action: int, world: World) -> None:
     """Tell lane i what a good step is, and which run of them ends the trial."""
     n[CRITERION + i] = CRITERIA[action]
     s[CONE + i] = world.indicate_cone if action == INDICATE else world.target_cone
@@ -72,7 +75,7 @@ def set_criterion(s, n, i, action, world):
 
 
 @compiled(allocates=False)
-def score_step(s, n, lanes, keep):
+def score_step(s: Floats, n: Integers, lanes: int, keep: float) -> int:
     """Judge the step just made in each lane; returns how many trials it ended."""
     ended = 0
     for i in range(lanes):
@@ -105,7 +108,7 @@ def score_step(s, n, lanes, keep):
 
 
 @compiled(allocates=False)
-def remember_stretch(s, lanes):
+def remember_stretch(s: Floats, lanes: int) -> None:
     """Keep the largest 1 - beta / 90 with the target in view; needed by one reading only."""
     for i in range(lanes):
         if offset_from_target(s, i) <= VIEW_HALF_WIDTH:
@@ -113,14 +116,16 @@ def remember_stretch(s, lanes):
 
 
 @compiled(allocates=False)
-def offset_from_target(s, i):
+def offset_from_target(s: Floats, i: int) -> float:
     """Smaller angle between S1 and the bearing of the target, d [deg]."""
     away = abs(s[TARGET + i] - s[ALPHA + i])
     return away if away <= 180.0 else 360.0 - away
 
 
 @compiled(allocates=False)
-def final_scores(s, n, i, world, action):
+def final_scores(
+    s: Floats, n: Integers, i: int, world: World, action: int
+) -> tuple[float, float, float, bool]:
     """(F1, F2, F3, success) of the ended trial in lane i."""
     d, first = offset_from_target(s, i), s[FIRST_OFFSET + i]
     in_view = d <= VIEW_HALF_WIDTH

@@ -138,6 +138,6 @@ def _reachable_betas(turn: float) -> NDArray[np.float64]:
 
 
 @compiled(allocates=False)
-def beta_key(beta):
+def beta_key(beta: float) -> np.uint64:
     """Where tables hold a value of beta [deg]: its whole tenths of a degree."""
     return np.uint64(beta * BETA_KEYS_PER_DEGREE + 0.5)

@@ -11,6 +11,7 @@ from tyro.conf import Positional
 PIPE_WIDTH: Final = 120
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
     from rich.table import Table
 
     from evolution.figures_classes import Behaviours
@@ -102,7 +103,7 @@ def _table(behaviours: Behaviours) -> Table:
     return table
 
 
-def _percent(values) -> str:
+def _percent(values: ArrayLike) -> str:
     """The mean of what is known of some values, or a stroke."""
     import numpy as np
 

@@ -1,0 +1,76 @@
+"""What the kernel is given and what it gives back: plain arrays that Numba can read."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d.compiling import compiled
+from arm2d.constants import N_INTER, N_OBJECTS
+from arm2d.kernel import lanes as at
+from arm2d.kernel.lanes import N_LANES, Floats, Integers
+
+
+class TrialArrays(NamedTuple):
+    """T trials as plain arrays.
+
+    Attributes:
+        action: [T] and
+        object: [T], the instruction that is scored.
+        alpha: [T] in [deg].
+        bearing: [T, 3] of the discs in [deg].
+        distance: [T, 3] of the discs from J1 in [cm].
+        heard: [T, 2, 2], (action, object) heard before and after the words change.
+        delay: [T], steps from the target's coming into view to the change, or NO_CHANGE.
+    """
+
+    action: Integers
+    object: Integers
+    alpha: Floats
+    bearing: Floats
+    distance: Floats
+    heard: Integers
+    delay: Integers
+
+
+class Outcomes(NamedTuple):
+    """What becomes of P genotypes in T trials, each [P, T]; filled in by the kernel."""
+
+    f1: Floats
+    f2: Floats
+    f3: Floats
+    success: NDArray[np.bool_]
+    steps: Integers
+
+
+NO_CHANGE: Final = -1
+
+# Columns of a recording; one row for each step.
+RECORD_ALPHA: Final = 0
+RECORD_BETA: Final = 1
+RECORD_TURN: Final = 2
+RECORD_STATE: Final = 3
+RECORD_BEARING: Final = 6
+RECORD_DISTANCE: Final = 9
+RECORD_SIDE: Final = 12
+RECORD_CAMERA: Final = 15
+RECORD_TOUCH: Final = 16
+RECORD_CHANGED: Final = 17
+RECORD_COLUMNS: Final = 18
+
+
+@compiled(allocates=False)
+def record_step(s: Floats, n: Integers, row: Floats) -> None:
+    """Write down lane 0 after a step, before the words may change."""
+    row[RECORD_ALPHA] = s[at.ALPHA]
+    row[RECORD_BETA] = s[at.BETA]
+    row[RECORD_TURN] = s[at.TURN]
+    row[RECORD_CAMERA] = n[at.CAMERA]
+    row[RECORD_TOUCH] = n[at.TOUCH]
+    row[RECORD_CHANGED] = 1.0 if n[at.WAIT] == at.CHANGED else 0.0
+    for j in range(N_INTER):
+        row[RECORD_STATE + j] = s[at.Y + j * N_LANES]
+    for disc in range(N_OBJECTS):
+        row[RECORD_BEARING + disc] = s[at.BEARING + disc * N_LANES]
+        row[RECORD_DISTANCE + disc] = s[at.DISTANCE + disc * N_LANES]
+        row[RECORD_SIDE + disc] = n[at.SIDE + disc * N_LANES]
