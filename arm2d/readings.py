@@ -12,6 +12,7 @@ from math import degrees
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 TURN_LATTICE = 2**44
+LARGEST_WHOLE = 10**300  # beyond, a whole number is not turned into a float
 # Turn of a joint per step, half-width of "on target", angle of a full MOVE [deg].
 TURN_SETS = {"degrees": (2.9, 4.6, 34.4), "radians": (degrees(0.05), degrees(0.08), degrees(0.6))}
 
@@ -197,6 +198,9 @@ def _check_type(name: str, value: Any) -> None:
         fits = isinstance(value, (list, tuple)) and all(type(v) in (int, float) for v in value)
     if not fits:
         raise ValueError(f"reading {name} = {value!r} is not of the kind of its default {default!r}")
+    numbers = value if isinstance(value, (list, tuple)) else [value]
+    if any(isinstance(each, int) and abs(each) > LARGEST_WHOLE for each in numbers):
+        raise ValueError(f"reading {name} holds a number that no float can hold; its default is {default!r}")
 
 
 def _as_default(name: str, value: Any) -> Any:

@@ -32,6 +32,13 @@ def test_whole_numbers_are_written_like_their_fractions():
     assert repr(whole) == repr(Readings(object_radius=8.0, sector_centres=(45.0, 90.0, 135.0)))
 
 
+@pytest.mark.parametrize("values", [{"mutation_sd": 10**400}, {"sector_centres": [30, 90, -(10**400)]}])
+def test_a_number_that_no_float_can_hold_is_refused_by_name(values):
+    (name,) = values
+    with pytest.raises(ValueError, match=f"^reading {name} holds a number that no float can hold"):
+        Readings.from_mapping(values)
+
+
 def test_turn_is_the_printed_one_to_a_tenth_of_a_picodegree():
     assert Readings().turn_size == pytest.approx(2.9, abs=1e-13)
     assert Readings(turn="radians").turn_size == pytest.approx(2.864788975654116, abs=1e-13)

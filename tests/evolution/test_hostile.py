@@ -45,6 +45,15 @@ def test_a_config_of_any_values_is_a_run_or_refused(values, sound):
         assert RunConfig.from_toml(config.to_toml()) == config
 
 
+@given(
+    st.sampled_from(["readings", "settings"]), st.sampled_from(FIELDS), PLAIN | st.lists(PLAIN, max_size=4)
+)
+def test_any_value_of_a_setting_or_reading_is_a_run_or_refused(table, name, value):
+    with contextlib.suppress(ValueError):
+        config = RunConfig.from_mapping({**SOUND, table: {name: value}})
+        assert RunConfig.from_toml(config.to_toml()) == config
+
+
 @given(TABLES)
 def test_an_experiment_of_any_values_is_a_plan_below_its_folder_or_refused(values):
     with contextlib.suppress(ValueError):
