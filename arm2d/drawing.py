@@ -37,13 +37,15 @@ CAMERA_RANGE: Final = 172.0
 # The world gives S2 no width and S1 no obstacle; these only make them visible [cm].
 S1_WIDTH: Final = 7.0
 S2_WIDTH: Final = 3.4
+# Below this a small panel's letters can no longer be read [points].
+SMALLEST_LETTERS: Final = 6.0
 
 
 class Scene:
     """A trial in matplotlib axes, to be moved from step to step without being set up anew.
 
     All widths and letters are in proportion to the axes' size when the scene is made, so that a small
-    panel shows the same picture as a large one.
+    panel shows the same picture as a large one; but no letters become too small to be read.
 
     Args:
         axes: Where to draw; cleared of ticks and scaled to the world.
@@ -80,7 +82,7 @@ class Scene:
         (self._joint,) = axes.plot([], [], "o", ms=6 * points, **joint)
         if caption:
             _write_caption(axes, record, note, points)
-        self._clock = axes.text(0, -98, "", ha="center", fontsize=8 * points, color=INK)
+        self._clock = axes.text(0, -98, "", ha="center", fontsize=_letters(8, points), color=INK)
         arm = [self._s2, self._s1, *self._discs, base, self._joint]
         # From back to front: what a step can change, or what lies above that.
         self.moving: list[Artist] = [*self._camera, *self._halos, *arm, self._clock]
@@ -169,6 +171,11 @@ def _points_per_cm(axes: Axes) -> float:
     return pixels * 72.0 / axes.figure.dpi
 
 
+def _letters(size: float, points: float) -> float:
+    """Font size [points] of letters that are `size` centimetres of the world, as far as they can be read."""
+    return max(size * points, SMALLEST_LETTERS)
+
+
 def _draw_ground(axes: Axes, record: TrialRecord, points: float) -> None:
     """Faintly: where J2 can be and where it starts, the chord each disc starts on, and a scale."""
     reach = {"fill": False, "ec": FAINT, "zorder": 0}
@@ -181,13 +188,13 @@ def _draw_ground(axes: Axes, record: TrialRecord, points: float) -> None:
         x, y = c.CHORD_END_DISTANCE * np.cos(ends), c.CHORD_END_DISTANCE * np.sin(ends)
         axes.plot(x, y, color=colour, alpha=0.35, lw=points, zorder=0, solid_capstyle="round")
     axes.plot([-172, -122], [-98, -98], color=INK, lw=0.9 * points)
-    axes.text(-147, -95, "50 cm", ha="center", va="bottom", fontsize=8 * points, color=INK)
+    axes.text(-147, -95, "50 cm", ha="center", va="bottom", fontsize=_letters(8, points), color=INK)
 
 
 def _write_caption(axes: Axes, record: TrialRecord, note: str, points: float) -> None:
     """The instruction in its object's colour, and the note below it."""
-    words = axes.text(0, 193, str(record.instruction), fontsize=14 * points, fontweight="bold")
+    words = axes.text(0, 193, str(record.instruction), fontsize=_letters(14, points), fontweight="bold")
     words.set_color(OBJECT_COLOURS[record.instruction.object])
-    line = axes.text(0, 177, note, fontsize=7 * points, color=INK)
+    line = axes.text(0, 177, note, fontsize=_letters(7, points), color=INK)
     for text in (words, line):
         text.set(ha="center", va="top")
