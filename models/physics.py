@@ -36,6 +36,17 @@ class NoPhysicsError(ValueError):
     """A robot's record says too little for it to act."""
 
 
+def limits_of_acting(robot: Robot) -> MotorLimits:
+    """Give the limits of a robot's motors; one that cannot act gets a NoPhysicsError."""
+    refuse_unsound(robot)
+    if robot.limits is None or not robot.shapes:
+        missing = "motor limits" if robot.limits is None else "contact shapes"
+        raise NoPhysicsError(
+            f"the record of robot '{robot.name}' has no {missing}; play the trial without physics"
+        )
+    return robot.limits
+
+
 def build_physics_model(robot: Robot) -> mujoco.MjModel:
     """Compile the robot with one position actuator for each acting joint, in the order of its `joints`.
 
@@ -45,12 +56,7 @@ def build_physics_model(robot: Robot) -> mujoco.MjModel:
         NoPhysicsError: If nothing is known of the robot's motors, or of the shape of its hand.
         RobotNotInstalledError: If the robot's package is missing.
     """
-    refuse_unsound(robot)
-    if robot.limits is None or not robot.shapes:
-        missing = "motor limits" if robot.limits is None else "contact shapes"
-        raise NoPhysicsError(
-            f"the record of robot '{robot.name}' has no {missing}; play the trial without physics"
-        )
+    limits = limits_of_acting(robot)
     spec = build_spec(robot)
     for shape in robot.shapes:
         add_shape(spec, shape)
@@ -60,7 +66,7 @@ def build_physics_model(robot: Robot) -> mujoco.MjModel:
         spec.geom(name).friction = [TABLE_FRICTION, 0.005, 0.0001]
         spec.geom(name).contype = OBJECT_BIT
         spec.geom(name).conaffinity = OBJECT_BIT | ROBOT_BIT
-    add_motors(spec, robot, robot.limits)
+    add_motors(spec, robot, limits)
     middle = spec.geom(OBJECTS[0]).size[1]  # of an object that stands on the table
     spec.worldbody.add_camera(name=EYE, pos=[0.0, 0.0, middle])
     return spec.compile()

@@ -11,16 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 from rich.progress import track
 
-from arm2d import NON_EXPERIENCED, Instruction, TrialRecord
+from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.constants import DT
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
 from arm2d.video import Panel, write_mp4
 from models.robots import Robot
 from mujoco_port.caption import BADGE, FAINT, blank, mark, pixels
 from mujoco_port.overlay import halved
-from mujoco_port.rollout import FRAMES_PER_STEP
 from mujoco_port.stage import Stage
-from mujoco_port.take import Take, kinematic_take
+from mujoco_port.take import Take
 from mujoco_port.video import PER_SECOND, robot_pictures
 
 # Pixels: 1920 x 1080 in all. A cell is a strip of words over robot and planar world.
@@ -28,7 +27,7 @@ COLUMNS: Final = 3
 WIDTH, HEIGHT, HEADER, GAP = 1920, 1080, 66, 6
 CELL_WIDTH: Final = (WIDTH - 4 * GAP) // COLUMNS
 CELL_HEIGHT: Final = (HEIGHT - HEADER - 3 * GAP) // COLUMNS
-STRIP, CLOCK = 38, 110
+STRIP, CLOCK = 38, 150
 VIEW_HEIGHT: Final = CELL_HEIGHT - STRIP
 ROBOT_WIDTH: Final = 404
 PANEL_WIDTH: Final = CELL_WIDTH - ROBOT_WIDTH
@@ -36,11 +35,11 @@ BORDER: Final = 3  # around a cell of an instruction that was never met
 HOLD_S: Final = 2.0
 
 
-def write_gallery(records: Sequence[TrialRecord], robot: Robot, title: str, path: Path) -> Path:
-    """Write the trials side by side as an MP4, and its last picture beside it as a PNG.
+def write_gallery(takes: Sequence[Take], robot: Robot, title: str, path: Path) -> Path:
+    """Write trials side by side as an MP4, and its last picture beside it as a PNG.
 
     Args:
-        records: Nine trials, row by row.
+        takes: Nine trials, row by row.
         robot: Who carries them out.
         title: Whose trials these are.
         path: The video; both files appear when they are complete.
@@ -49,12 +48,10 @@ def write_gallery(records: Sequence[TrialRecord], robot: Robot, title: str, path
         The path of the PNG.
 
     Raises:
-        OutOfReachError: If the robot cannot follow.
         OSError: If a file cannot be written.
     """
     import imageio.v3 as imageio
 
-    takes = [kinematic_take(record, robot, FRAMES_PER_STEP) for record in records]
     total = max(len(take.steps) for take in takes) + round(HOLD_S * PER_SECOND)
     shown = track(frames(takes, robot, title), f"{len(takes)} instructions on {robot.name}", total=total)
     poster, last = path.with_suffix(".png"), []
@@ -95,10 +92,11 @@ def cell_pictures(take: Take, stage: Stage) -> Iterator[NDArray[np.uint8]]:
     panel = Panel(take.record, PANEL_WIDTH, VIEW_HEIGHT, caption=False)
     words = strip(take.record.instruction)
     views = (halved(each) for each in robot_pictures(take, stage))
+    end = take.record.steps  # of the planar world, where a robot may need longer
     for step, robot in zip(take.steps, views, strict=True):
-        success = take.verdicts[-1][1] if step >= take.steps[-1] else None
-        line = np.concatenate([words, clock(f"{step * DT:.1f} s", success)], axis=1)
-        cell = np.concatenate([line, np.concatenate([robot, panel.frame(step)], axis=1)])
+        verdicts = tuple(success for _, success in take.verdicts) if step >= take.steps[-1] else ()
+        line = np.concatenate([words, clock(f"{step * DT:.1f} s", verdicts)], axis=1)
+        cell = np.concatenate([line, np.concatenate([robot, panel.frame(min(step, end))], axis=1)])
         if take.record.instruction in NON_EXPERIENCED:
             _frame(cell)
         yield cell
@@ -115,12 +113,21 @@ def strip(instruction: Instruction) -> NDArray[np.uint8]:
 
 
 @cache
-def clock(text: str, success: bool | None) -> NDArray[np.uint8]:
-    """The time and, once there is one, the verdict."""
+def clock(text: str, verdicts: tuple[bool, ...]) -> NDArray[np.uint8]:
+    """The time and, once it has stopped, the verdicts: the planar world's, then the robot's."""
     figure = blank(CLOCK, STRIP)
-    sign = "" if success is None else f"{mark(success)}  "
-    weight = "normal" if success is None else "bold"
-    figure.text(0.90, 0.48, sign + text, ha="right", va="center", fontsize=12, fontweight=weight, color=INK)
+    signs = "".join(f"{mark(success)} " for success in verdicts)
+    weight = "bold" if verdicts else "normal"
+    figure.text(
+        0.90,
+        0.48,
+        f"{signs} {text}" if signs else text,
+        ha="right",
+        va="center",
+        fontsize=12,
+        fontweight=weight,
+        color=INK,
+    )
     return pixels(figure)
 
 

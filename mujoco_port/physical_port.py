@@ -1,4 +1,4 @@
-"""Putting a trial on an acting robot: the public face of the physics for one trial.
+"""Putting a trial on an acting robot: the public face of the physics for trials of one agent.
 
 from mujoco_port.physical_port import port_physical_trial
 verdict = port_physical_trial(record, genotype, "touch-red.mp4")
@@ -6,6 +6,7 @@ verdict = port_physical_trial(record, genotype, "touch-red.mp4")
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -15,9 +16,11 @@ from numpy.typing import NDArray
 from arm2d import TrialRecord, Trials
 from models.robots import get_robot
 from mujoco_port.gl import choose_back_end
-from mujoco_port.port import writable
+from mujoco_port.port import check_gallery, writable
 
 if TYPE_CHECKING:
+    from mujoco_port.physical import Lab
+    from mujoco_port.physical_rollout import PhysicalRecord
     from mujoco_port.verdict import Verdict
 
 ClosedLoopName = Literal["geometric", "camera"]
@@ -54,22 +57,80 @@ def port_physical_trial(
         choose_back_end()
     from mujoco_port.physical import Lab
 
-    lab, trial = Lab(chosen), start_of(record)
-    if closed_loop is None:
-        physical, verdict = lab.open_loop(genotype, trial, record.readings)
-    elif closed_loop == "geometric":
-        physical, verdict = lab.closed_loop(genotype, trial, record.readings)
-    else:
-        from mujoco_port.camera import CameraEyes
-
-        with CameraEyes(lab.body) as eyes:
-            physical, verdict = lab.closed_loop(genotype, trial, record.readings, eyes)
+    physical, verdict = _carry_out(Lab(chosen), record, genotype, closed_loop)
     if path is not None:
         from mujoco_port.physical_take import physical_take
         from mujoco_port.video import write_take
 
         write_take(physical_take(record, physical, verdict), chosen, path)
     return verdict
+
+
+def port_physical_gallery(
+    records: Sequence[TrialRecord],
+    genotype: NDArray[np.float64],
+    title: str,
+    output: Path | str,
+    *,
+    robot: str = "icub",
+    closed_loop: ClosedLoopName | None = None,
+) -> tuple[tuple[Path, Path], list[Verdict]]:
+    """Let a robot with motors carry out nine trials, and write them side by side as `port_gallery` does.
+
+    Args:
+        records: Nine trials in the 2D world, row by row.
+        genotype: [84], of the agent.
+        title: What stands above them; how many the robot has carried out is added.
+        output: The video; its folder has to be there, and the picture will lie beside it.
+        robot: Name of a record in `models.robots`.
+        closed_loop: As `port_physical_trial`.
+
+    Returns:
+        The paths of the video and of the picture, and what became of each instruction.
+
+    Raises:
+        ValueError: If there are not nine records. All other errors as `port_physical_trial`.
+    """
+    check_gallery(records)
+    path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
+    choose_back_end()
+    from rich.progress import track
+
+    from mujoco_port.gallery import write_gallery
+    from mujoco_port.physical import Lab
+    from mujoco_port.physical_take import physical_take
+
+    lab, takes, verdicts = Lab(chosen), [], []
+    for record in track(records, "trials on the robot"):
+        physical, verdict = _carry_out(lab, record, genotype, closed_loop)
+        takes.append(physical_take(record, physical, verdict))
+        verdicts.append(verdict)
+    title += f", {sum(verdict.success for verdict in verdicts)} by the robot"
+    return (path, write_gallery(takes, chosen, title, path)), verdicts
+
+
+def _carry_out(
+    lab: Lab, record: TrialRecord, genotype: NDArray[np.float64], closed_loop: ClosedLoopName | None
+) -> tuple[PhysicalRecord, Verdict]:
+    """One trial on the robot, with the agent's inputs from where they are wanted."""
+    trial = start_of(record)
+    if closed_loop is None:
+        return lab.open_loop(genotype, trial, record.readings)
+    if closed_loop == "geometric":
+        return lab.closed_loop(genotype, trial, record.readings)
+    from mujoco_port.camera import CameraEyes
+
+    with CameraEyes(lab.body) as eyes:
+        return lab.closed_loop(genotype, trial, record.readings, eyes)
+
+
+def check_acts(robot: str) -> None:
+    """Refuse a robot that cannot act, before a folder is made; raises as `port_physical_trial`."""
+    chosen = get_robot(robot)
+    choose_back_end()
+    from models.physics import limits_of_acting
+
+    limits_of_acting(chosen)
 
 
 def start_of(record: TrialRecord) -> Trials:

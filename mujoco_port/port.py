@@ -62,13 +62,21 @@ def port_gallery(
     Raises:
         ValueError: If there are not nine records. All other errors as `port_trial`.
     """
-    if len(records) != N_GALLERY:
-        raise ValueError(f"a gallery has {N_GALLERY} trials, not {len(records)}; give one per instruction")
+    check_gallery(records)
     path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
     choose_back_end()
     from mujoco_port.gallery import write_gallery
+    from mujoco_port.rollout import FRAMES_PER_STEP
+    from mujoco_port.take import kinematic_take
 
-    return path, write_gallery(records, chosen, title, path)
+    takes = [kinematic_take(record, chosen, FRAMES_PER_STEP) for record in records]
+    return path, write_gallery(takes, chosen, title, path)
+
+
+def check_gallery(records: Sequence[TrialRecord]) -> None:
+    """Refuse all but nine trials with a ValueError."""
+    if len(records) != N_GALLERY:
+        raise ValueError(f"a gallery has {N_GALLERY} trials, not {len(records)}; give one per instruction")
 
 
 def port_picture(record: TrialRecord, step: int, output: Path | str, *, robot: str = "icub") -> Path:

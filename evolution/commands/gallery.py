@@ -25,11 +25,18 @@ class Gallery(AgentCommand):
     output: Path | None = None
     """The video; its last picture lies beside it. By default `videos/<agent>-gallery.mp4`, as for `port`."""
 
+    physics: bool = False
+    """Let the robot act: motors, free objects, contacts; prints what became of each trial in 2D and 3D."""
+
+    closed_loop: Literal["geometric", "camera"] | None = None
+    """The agent's inputs come from the acting robot: objects seen where they are, or by a rendered camera."""
+
     def run(self) -> int:
-        """Record the trials and let the humanoid follow them."""
+        """Record the trials and let the humanoid follow them, or carry them out."""
         from evolution.recording import record_instruction
         from evolution.storage import make_folder
         from models.robots import get_robot
+        from mujoco_port.physical_port import check_acts, port_physical_gallery
         from mujoco_port.port import port_gallery
 
         get_robot(self.robot)  # refuses unknown names before anything is made
@@ -38,11 +45,33 @@ class Gallery(AgentCommand):
             record_instruction(source, instruction, self.start_area, self.trial_seed)
             for instruction in source.condition.instructions
         ]
+        physics = self.physics or self.closed_loop is not None
+        if physics:
+            check_acts(self.robot)
         home = Path() if source.folder is None else source.folder.path
-        output = self.output or home / "videos" / f"{source.name}-gallery.mp4"
+        kind = f"-{self.closed_loop}" if self.closed_loop else "-physics" if self.physics else ""
+        name = f"{source.name}-gallery{kind}.mp4"
+        output = self.output or home / "videos" / name
         make_folder(output.parent)
         carried_out = sum(record.success for record in records)
         title = f"{source.name}: nine instructions, two of them never met; {carried_out} carried out"
-        for path in port_gallery(records, title, output, robot=self.robot):
+        if not physics:
+            paths = port_gallery(records, title, output, robot=self.robot)
+        else:
+            paths, verdicts = port_physical_gallery(
+                records,
+                source.genotype,
+                f"{title} in 2D",
+                output,
+                robot=self.robot,
+                closed_loop=self.closed_loop,
+            )
+            for record, verdict in zip(records, verdicts, strict=True):
+                planar = "carried out" if record.success else "not carried out"
+                print(
+                    f"{record.instruction}: 2D {planar}, 3D {'' if verdict.success else 'not '}carried out"
+                    f"{'' if verdict.success else ': ' + verdict.reason}"
+                )
+        for path in paths:
             print(path)
         return 0

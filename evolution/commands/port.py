@@ -50,7 +50,7 @@ class Port(AgentCommand):
         from evolution.recording import record_instruction
         from evolution.storage import make_folder
         from models.robots import get_robot
-        from mujoco_port.physical_port import port_physical_trial
+        from mujoco_port.physical_port import check_acts, port_physical_trial
         from mujoco_port.port import port_trial
 
         get_robot(self.robot)  # refuses unknown names before anything is made
@@ -60,6 +60,8 @@ class Port(AgentCommand):
         words = f"{instruction.action.name}-{instruction.object.name}".lower()
         output = self.output or home / "videos" / f"{source.name}-{words}.mp4"
         if self.video:
+            if physics:
+                check_acts(self.robot)
             make_folder(output.parent)
         if physics:
             shown = output if self.video else None

@@ -1,0 +1,55 @@
+"""Nine trials of an acting robot side by side: two verdicts in each cell."""
+
+from dataclasses import replace
+
+import pytest
+
+from evolution.recording import record_instruction
+from evolution.sources import find_source
+from mujoco_port.gallery import CELL_WIDTH, CLOCK, ROBOT_WIDTH, STRIP, VIEW_HEIGHT, cell_pictures
+from mujoco_port.physical_port import port_physical_gallery, start_of
+from mujoco_port.physical_take import physical_take
+from mujoco_port.stage import Stage
+
+
+@pytest.fixture(scope="module")
+def agent():
+    return find_source("best-generaliser")
+
+
+@pytest.fixture(scope="module")
+def record(agent):
+    move_blue = next(each for each in agent.condition.instructions if str(each) == "MOVE Blue")
+    return record_instruction(agent, move_blue, "right", 0)
+
+
+def last_clock(take, robot):
+    """The corner of a cell in which time and verdicts stand, when the trial has ended."""
+    moments = [0, len(take.steps) - 1]
+    short = replace(
+        take,
+        steps=take.steps[moments],
+        angles=take.angles[moments],
+        objects=take.objects[moments],
+        touched=take.touched[moments],
+    )
+    with Stage(robot, 2 * ROBOT_WIDTH, 2 * VIEW_HEIGHT) as stage:
+        *_, cell = cell_pictures(short, stage)
+    return cell[4 : STRIP - 4, CELL_WIDTH - CLOCK : -4].astype(int)
+
+
+def test_a_cell_ends_with_the_verdicts_of_both_worlds(agent, record, robot, lab):
+    physical, verdict = lab.open_loop(agent.genotype, start_of(record), record.readings)
+    take = physical_take(record, physical, verdict)
+    both = last_clock(take, robot)
+    one = last_clock(replace(take, verdicts=take.verdicts[:1]), robot)
+    other = last_clock(replace(take, verdicts=(*take.verdicts[:1], ("robot", not verdict.success))), robot)
+    assert (both < 128).all(axis=-1).sum() > (one < 128).all(axis=-1).sum()
+    assert (both != other).any()
+    assert (both[:, :2] > 200).all()  # nothing is cut off
+
+
+def test_too_few_trials_are_refused_before_any_is_carried_out(agent, record, tmp_path):
+    with pytest.raises(ValueError, match="a gallery has 9 trials, not 1; give one per instruction"):
+        port_physical_gallery([record], agent.genotype, "one", tmp_path / "gallery.mp4")
+    assert not any(tmp_path.iterdir())
