@@ -8,15 +8,15 @@ there are any, each of them is a grid of its own, on top of what the whole file 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields
 from itertools import product
 from math import prod
 from pathlib import Path
 from typing import Any, Final
 
 from arm2d import Condition, Readings
-from evolution.config import RunConfig
-from evolution.plan import Plan, World
+from evolution.experiment_spec import ExperimentSpec, check_size
+from evolution.plan import World
 from evolution.seeds import read_seeds
 from evolution.settings import Settings
 from evolution.toml import read_toml
@@ -28,71 +28,8 @@ KEYS: Final = (
 )  # fmt: skip
 VARIANT_KEYS: Final = ("name", "settings", "readings")
 LARGEST_FILE: Final = 1_000_000  # [bytes]
-MOST_RUNS: Final = 100_000
 MOST_VARIANTS: Final = 10_000
 LARGEST_WHOLE: Final = 10**300
-
-
-@dataclass(frozen=True)
-class ExperimentSpec:
-    """What an experiment file asks for.
-
-    Attributes:
-        output: Folder of the experiment.
-        conditions: Which third action is met.
-        seeds: Of the runs.
-        worlds: Readings and settings of every variant, with the names of those that have one.
-        post_evaluate: Whether the paper's two tests follow evolution.
-        jobs: Processes at a time; None for as many as there are processors.
-    """
-
-    output: Path
-    conditions: tuple[Condition, ...]
-    seeds: tuple[int, ...]
-    worlds: Mapping[World, str | None]
-    post_evaluate: bool = False
-    jobs: int | None = None
-
-    def configs(self) -> tuple[RunConfig, ...]:
-        """All runs: for each seed, all variants and conditions, so that all get on together."""
-        return tuple(
-            RunConfig(condition, seed, settings, readings)
-            for seed in self.seeds
-            for readings, settings in self.worlds
-            for condition in self.conditions
-        )
-
-    def plan(self) -> Plan:
-        """The same with its folders.
-
-        Raises:
-            ValueError: If two variants would have the same folder.
-        """
-        names = {world: name for world, name in self.worlds.items() if name}
-        plan = Plan(self.output, self.configs(), self.post_evaluate, names)
-        seen: dict[str, World] = {}
-        for world, name in plan.variants.items():
-            if name in seen:
-                raise ValueError(f"two variants are called {name!r}; give each a name of its own")
-            check_name(name)
-            seen[name] = world
-        return plan
-
-    def with_settings(self, **values: int) -> ExperimentSpec:
-        """The same with some settings put in the place of the file's.
-
-        Raises:
-            ValueError: If two variants would become the same, or a value is impossible.
-        """
-        worlds: dict[World, str | None] = {}
-        for (readings, settings), name in self.worlds.items():
-            world = (readings, replace(settings, **values))
-            if world in worlds:
-                raise ValueError(
-                    f"with {_told(values)} two variants are the same; the file makes a grid of that setting"
-                )
-            worlds[world] = name
-        return replace(self, worlds=worlds)
 
 
 def read_experiment(path: Path) -> ExperimentSpec:
@@ -126,13 +63,6 @@ def experiment_from_mapping(values: Mapping[str, Any], output: Path) -> Experime
     )
     check_size(spec)
     return spec
-
-
-def check_size(spec: ExperimentSpec) -> None:
-    """Refuse an experiment nobody can have meant."""
-    n = len(spec.worlds) * len(spec.conditions) * len(spec.seeds)
-    if n > MOST_RUNS:
-        raise ValueError(f"this makes {n:,} runs; an experiment has at most {MOST_RUNS:,}: split it up")
 
 
 def _text_of(path: Path) -> str:
@@ -251,7 +181,3 @@ def _refuse_twice(name: str, values: Sequence[Any]) -> None:
     for i, each in enumerate(values):
         if each in values[:i]:
             raise ValueError(f"{name} has {each} twice; leave one out")
-
-
-def _told(values: Mapping[str, int]) -> str:
-    return ", ".join(f"{name} = {value}" for name, value in values.items())

@@ -13,7 +13,7 @@ from evolution.commands.cluster_flags import ClusterFlags
 from evolution.commands.evolve import INTERRUPTED
 
 if TYPE_CHECKING:
-    from evolution.grid import ExperimentSpec
+    from evolution.experiment_spec import ExperimentSpec
     from evolution.plan import Plan
     from evolution.standing import Standing
 
@@ -80,7 +80,8 @@ class ExperimentCommand:
     @property
     def spec(self) -> ExperimentSpec:
         """What file and flags ask for."""
-        from evolution.grid import check_size, read_experiment
+        from evolution.experiment_spec import check_size
+        from evolution.grid import read_experiment
         from evolution.seeds import read_seeds
 
         spec = read_experiment(self.file)
