@@ -11,7 +11,8 @@
     recorded, replay     what a run has recorded; every genotype again, without a trial
     run, repair          a run from first to last generation; its damaged files again
     verify               a run computed again and compared
-    grid, variants, plan many runs: the file that names them, their names, their folders and jobs
+    grid, experiment_spec, variants, plan         many runs: the file that names them, what it asks for, their
+                         names, their folders and jobs
     plan_runner, jobs    a plan carried out, one process for each run; workers, fork_server: the processes
     standing, live_table how far runs have come, and how that is shown
     evaluation, champion all nine instructions; the agents a run is remembered by
@@ -30,6 +31,8 @@
     key_numbers, published                        an experiment in a few numbers; the paper's
     report, report_...                            the page
     plan, jobs, workers, reproduce, stage_times   the whole paper in processes of their own
+    study/               many readings against the published figures, and what each changes by itself
+    cluster/, torture/   the same runs on other machines; kills and damage, to see what they survive
     meta, progress       with what a run was computed; how it gets on
     cli, commands/       the command line
 

@@ -31,7 +31,7 @@ class StudyCommand:
 
     part: Literal["screening", "finalists"] = "screening"
     """screening (3000 generations, one reading at a time and the geometry in depth) or finalists (the whole
-    experiment under the three that came nearest to the paper in the screening)."""
+    experiment under the default and the three that came nearest to the paper in the screening)."""
 
     output: Path = Path("runs/readings")
     """Folder of the study; each part has a folder in it."""

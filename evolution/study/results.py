@@ -16,6 +16,7 @@ from evolution.plan import LOGS, Plan
 from evolution.result_files import to_csv
 from evolution.standing import Standing
 from evolution.storage import make_folder, write_atomically
+from evolution.study.effects import effect_rows
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import is_measured, measure
 from evolution.study.table import VariantMeasures, group, run_rows, variant_rows
@@ -63,7 +64,12 @@ def measured_variants(plan: Plan) -> list[VariantMeasures]:
 def write_study(variants: Sequence[VariantMeasures], part: Part, folder: Path) -> Iterable[Path]:
     """Write tables, and both pictures for each condition; their paths."""
     make_folder(folder)
-    for name, rows in (("variants", variant_rows(variants)), ("runs", run_rows(variants))):
+    tables = {
+        "variants": variant_rows(variants),
+        "readings": effect_rows(variants),
+        "runs": run_rows(variants),
+    }
+    for name, rows in tables.items():
         path = folder / f"{part.name}-{name}.csv"
         write_atomically(path, to_csv(rows).encode())
         yield path

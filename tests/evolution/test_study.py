@@ -2,6 +2,7 @@
 
 import csv
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from evolution.run import evolve
 from evolution.settings import Settings
 from evolution.solving import solved_trials
 from evolution.storage import DamagedFileError
+from evolution.study.effects import effect_rows, effects, holm
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import FILE, measure
 from evolution.study.results import write_study
@@ -133,6 +135,41 @@ def test_weakest_instruction_is_the_least_carried_out_of_the_experienced(measure
     assert success == variant.success_by_area[order.index(instruction), ("right", "left").index(area)]
     known = [order.index(each) for each in variant.condition.experienced]
     assert success == variant.success_by_area[known].min()
+
+
+def test_effect_of_a_reading_is_its_difference_seed_by_seed(measured):
+    variants = group(measured[1])
+    (effect,) = effects(variants)
+    assert (effect.reading, effect.value, effect.seeds) == ("object_radius", 8.0, [1, 2])
+    np.testing.assert_array_equal(effect.differences, variants[1].plateaus - variants[0].plateaus)
+    assert effect.runs == (list(variants[0].runs), list(variants[1].runs))
+    (row,) = csv.DictReader(to_csv(effect_rows(variants)).splitlines())
+    assert float(row["plateau, difference"]) == pytest.approx(effect.differences.mean(), abs=1e-4)
+    # Two seeds have four choices of signs, two of which are at least as far off as any.
+    assert float(row["p"]) == float(row["p after Holm"]) == (1.0 if np.prod(effect.differences) < 0 else 0.5)
+
+
+def test_effect_counts_seeds_not_pairs_of_worlds(measured):
+    """The same pair of worlds twice, once more under a reading that both share, says nothing new."""
+    twice = group(measured[1]) + [
+        replace(each, name=f"{each.name}+success-f1-f2-f3", runs=tuple(strict(run) for run in each.runs))
+        for each in group(measured[1])
+    ]
+    by_name = {(each.reading, each.value): each for each in effects(twice)}
+    radius = by_name["object_radius", 8.0]
+    assert (len(radius.pairs), radius.seeds) == (2, [1, 2])
+    np.testing.assert_array_equal(radius.differences, effects(group(measured[1]))[0].differences)
+    np.testing.assert_array_equal(by_name["success", "f1_f2_f3"].differences, [0.0, 0.0])
+
+
+def strict(run):
+    """The run under the reading of success that changes no fitness."""
+    return replace(run, config=replace(run.config, readings=replace(run.config.readings, success="f1_f2_f3")))
+
+
+def test_holm_multiplies_the_smallest_p_by_all_looks_and_keeps_their_order():
+    np.testing.assert_allclose(holm(np.array([0.02, 0.5, 0.01, 0.04])), [0.06, 0.5, 0.04, 0.08])
+    np.testing.assert_array_equal(holm(np.array([0.9, 0.8])), [1.0, 1.0])
 
 
 def test_figures_show_every_variant_and_the_published_values(measured):

@@ -1,0 +1,129 @@
+"""What one reading changes by itself, seed by seed.
+
+Two worlds that differ in one reading only, one of them with its default, make a pair. Runs of one seed begin
+with the same genotypes in both, and in every other world: so a seed gives one number, its mean difference
+over the pairs, and seeds are what is counted. Looking at many readings at once is paid for by Holm's method.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import Condition, Readings
+from evolution.statistics import sign_flip_test
+from evolution.study.measures import RunMeasures
+from evolution.study.table import VariantMeasures, interval
+
+Pair = tuple[VariantMeasures, VariantMeasures]
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One reading against its default.
+
+    Attributes:
+        condition: Of the runs.
+        reading: Its name.
+        value: What it is changed to.
+        pairs: Worlds without and with it, alike in all else.
+    """
+
+    condition: Condition
+    reading: str
+    value: object
+    pairs: tuple[Pair, ...]
+
+    @property
+    def seeds(self) -> list[int]:
+        """Seeds that were evolved in all worlds."""
+        return sorted(set.intersection(*(set(_by_seed(each)) for pair in self.pairs for each in pair)))
+
+    @property
+    def differences(self) -> NDArray[np.float64]:
+        """Plateau with minus plateau without, mean over the pairs, for each seed."""
+        gains = [
+            _plateaus(changed, self.seeds) - _plateaus(without, self.seeds) for without, changed in self.pairs
+        ]
+        return np.array(gains).mean(axis=0)  # of [pairs, seeds]
+
+    @property
+    def runs(self) -> tuple[list[RunMeasures], list[RunMeasures]]:
+        """All runs of these seeds without the reading, and all with it."""
+        worlds = zip(*self.pairs, strict=True)
+        without, changed = ([_by_seed(each)[seed] for each in own for seed in self.seeds] for own in worlds)
+        return without, changed
+
+
+def effects(variants: Sequence[VariantMeasures]) -> list[Effect]:
+    """Every reading that some pair of worlds differs in, in the order in which variants first have it."""
+    found: dict[tuple[Condition, str, object], list[Pair]] = {}
+    for changed, without in product(variants, variants):
+        differing = _differing(_readings(without), _readings(changed))
+        alike = (without.condition, without.generations) == (changed.condition, changed.generations)
+        if not alike or len(differing) != 1:
+            continue
+        (name,) = differing
+        if getattr(_readings(without), name) == getattr(Readings(), name):
+            key = (changed.condition, name, getattr(_readings(changed), name))
+            found.setdefault(key, []).append((without, changed))
+    listed = [Effect(*key, tuple(pairs)) for key, pairs in found.items()]
+    return [each for each in listed if each.seeds]
+
+
+def holm(p: NDArray[np.float64]) -> NDArray[np.float64]:
+    """P-values after Holm's correction for as many looks as there are."""
+    order = np.argsort(p, kind="stable")
+    factors = len(p) - np.arange(len(p))
+    corrected = np.empty_like(p)
+    corrected[order] = np.minimum(1.0, np.maximum.accumulate(factors * p[order]))
+    return corrected
+
+
+def effect_rows(variants: Sequence[VariantMeasures]) -> Iterable[Sequence[object]]:
+    """One row per condition and reading."""
+    yield (
+        "condition", "reading", "value", "worlds", "seeds", "plateau, difference", "low", "high", "p",
+        "p after Holm", "runs", "at 18/7 without", "at 18/7 with", "solve all trials without",
+        "solve all trials with",
+    )  # fmt: skip
+    for condition in Condition:
+        listed = [each for each in effects(variants) if each.condition is condition]
+        p = np.array([sign_flip_test(each.differences) for each in listed])
+        for each, own, corrected in zip(listed, p, holm(p), strict=True):
+            differences = each.differences
+            at_limit = [sum(run.at_limit for run in runs) for runs in each.runs]
+            solved = [sum(run.first_solved >= 0 for run in runs) for runs in each.runs]
+            yield (
+                str(condition), each.reading, _shown(each.value), len(each.pairs), len(each.seeds),
+                *(f"{v:.4f}" for v in (differences.mean(), *interval(differences))), f"{own:.4f}",
+                f"{corrected:.4f}", len(each.runs[0]), *at_limit, *solved,
+            )  # fmt: skip
+
+
+def _differing(one: Readings, other: Readings) -> list[str]:
+    return [each.name for each in fields(Readings) if getattr(one, each.name) != getattr(other, each.name)]
+
+
+def _readings(variant: VariantMeasures) -> Readings:
+    return variant.runs[0].config.readings
+
+
+def _by_seed(variant: VariantMeasures) -> Mapping[int, RunMeasures]:
+    return {run.config.seed: run for run in variant.runs}
+
+
+def _plateaus(variant: VariantMeasures, seeds: Sequence[int]) -> NDArray[np.float64]:
+    """[seeds]."""
+    runs = _by_seed(variant)
+    return np.array([runs[seed].plateau for seed in seeds])
+
+
+def _shown(value: object) -> object:
+    if isinstance(value, float):
+        return f"{value:g}"
+    return " ".join(f"{each:g}" for each in value) if isinstance(value, tuple) else value
