@@ -119,7 +119,7 @@ def _lowest(conditions: Mapping[Condition, Mapping[str, list[KeyNumber]]]) -> fl
     return min([*lowest, LARGEST_FITNESS - 0.1])
 
 
-def _colour(name: str, experiments: Mapping[str, object]):
+def _colour(name: str, experiments: Mapping[str, object]) -> str:
     """From deep teal on, one colour for each experiment."""
     palette = (OURS, "#C2572B", "#7B5EA7", "#3E7D3A", "#B08D1E", "#444444")
     return palette[list(experiments).index(name) % len(palette)]
@@ -130,7 +130,7 @@ def _labels() -> tuple[str, str, str, str]:
         "plateau of each run, best fitness",
         "share of runs [%]",
         "agents in category 10 [%]",
-        "agents that pass a transition [%]",
+        "pass a transition [%]",
     )
 
 

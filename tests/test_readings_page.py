@@ -1,0 +1,71 @@
+"""docs/readings.md against the runs it stands on, docs/results/readings/finalists-runs.csv."""
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from evolution.results import FITNESS_LIMIT, PLATEAU_TOLERANCE
+from evolution.statistics import sign_flip_test
+
+DOCS = Path(__file__).parents[1] / "docs"
+PAGE = (DOCS / "readings.md").read_text(encoding="utf-8")
+NAMES = {
+    "**default**": "default",
+    "`mutation_sd` 0.03": "mutation-sd-0.03",
+    "`mutation_probability` 0.04": "mutation-probability-0.04",
+    "`mutation_sd` 0.03, `sector_half_width` 5": "mutation-sd-0.03+sector-half-width-5",
+}
+CONDITIONS = ("With-Indicate", "With-Ignore")
+FRESH = range(11, 21)
+
+
+@pytest.fixture(scope="module")
+def runs():
+    """The runs of each variant and condition, by seed."""
+    with (DOCS / "results" / "readings" / "finalists-runs.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return {(r["variant"], r["condition"], int(r["seed"])): r for r in rows}
+
+
+def rows_below(heading):
+    """Cells of the table's rows; a first cell left empty is that of the row above."""
+    table = PAGE[PAGE.index(heading) :]
+    rows, name = [], ""
+    for line in re.findall(r"^\|(.*)\|$", table.split("\n\n", 1)[0], re.MULTILINE)[2:]:
+        first, *cells = (cell.strip() for cell in line.split("|"))
+        name = first or name
+        rows.append((name, *cells))
+    return rows
+
+
+def plateaus(runs, variant, condition, seeds):
+    return np.array([float(runs[variant, condition.lower(), seed]["plateau"]) for seed in seeds])
+
+
+def test_finalists_table_says_what_the_runs_say(runs):
+    rows = rows_below("| variant | condition | plateau, mean [95 %] | at 18/7")
+    assert [(name, condition) for name, condition, *_ in rows] == [(n, c) for n in NAMES for c in CONDITIONS]
+    for name, condition, plateau, at_limit, fresh, share, compositional in rows:
+        own = [runs[NAMES[name], condition.lower(), seed] for seed in range(1, 21)]
+        found = plateaus(runs, NAMES[name], condition, range(1, 21))
+        reached = found >= FITNESS_LIMIT - PLATEAU_TOLERANCE
+        assert plateau.startswith(f"{found.mean():.2f} [")
+        assert int(at_limit.strip("*")) == reached.sum()
+        assert int(fresh.split()[0]) == reached[10:].sum()
+        top = 100 * np.mean([float(run["sub-task I, category 10"]) for run in own])
+        assert share.strip("*").startswith(f"{top:.0f} % [")
+        assert int(compositional) == sum(float(run["fully compositional"]) > 0 for run in own)
+
+
+def test_fresh_seeds_say_what_the_page_quotes_of_them(runs):
+    quoted = [row for row in rows_below("| reading | condition | plateau, difference") if row[-1]]
+    assert len(quoted) == 4
+    for name, condition, *_, told in quoted:
+        without = plateaus(runs, "default", condition, FRESH)
+        gains = plateaus(runs, NAMES[name], condition, FRESH) - without
+        difference, p = re.fullmatch(r"([+-][\d.]+), p = ([\d.]+)", told).groups()
+        assert f"{gains.mean():+.2f}" == difference
+        assert f"{sign_flip_test(gains):.{len(p) - 2}f}" == p
