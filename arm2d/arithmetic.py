@@ -112,14 +112,10 @@ def log(x: float) -> float:
 @register_jitable
 def sin_cos(angle_deg: float) -> tuple[float, float]:
     """(sine, cosine) of an angle in degrees: Taylor series after taking off quarter turns."""
+    if -44.9 < angle_deg < 44.9:  # no quarter turn to take off
+        return _sin_cos_of_small(angle_deg * _RADIANS_PER_DEGREE)
     quarter = (angle_deg / 90.0 + _ROUNDER) - _ROUNDER
-    r = (angle_deg - 90.0 * quarter) * _RADIANS_PER_DEGREE
-    z = r * r
-    sine, cosine = 0.0, 0.0
-    for n in range(16, 0, -2):
-        sine = (1.0 - sine) * z * (1.0 / (n * (n + 1)))
-        cosine = (1.0 - cosine) * z * (1.0 / (n * (n - 1)))
-    sine, cosine = r - r * sine, 1.0 - cosine
+    sine, cosine = _sin_cos_of_small((angle_deg - 90.0 * quarter) * _RADIANS_PER_DEGREE)
     turns = int(quarter) % 4
     if turns == 0:
         return sine, cosine
@@ -128,6 +124,17 @@ def sin_cos(angle_deg: float) -> tuple[float, float]:
     if turns == 2:
         return -sine, -cosine
     return -cosine, sine
+
+
+@register_jitable
+def _sin_cos_of_small(r: float) -> tuple[float, float]:
+    """(sine, cosine) of r in [-pi/4, pi/4]."""
+    z = r * r
+    sine, cosine = 0.0, 0.0
+    for n in range(16, 0, -2):
+        sine = (1.0 - sine) * z * (1.0 / (n * (n + 1)))
+        cosine = (1.0 - cosine) * z * (1.0 / (n * (n - 1)))
+    return r - r * sine, 1.0 - cosine
 
 
 @register_jitable

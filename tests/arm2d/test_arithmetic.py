@@ -35,6 +35,15 @@ def test_quarter_turns_have_exact_sines():
     assert [arithmetic.sin_cos(a) for a in (0.0, 90.0, 180.0)] == [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0)]
 
 
+def test_angles_without_a_quarter_turn_have_the_bits_of_the_series_alone():
+    """The short way is taken below 44.9 degrees; from there to 45 the long way has to agree with it."""
+    angles = np.linspace(-44.999, 44.999, 20001)
+    short = [arithmetic._sin_cos_of_small(each * arithmetic._RADIANS_PER_DEGREE) for each in angles]
+    compiled = numba.njit(arithmetic.sin_cos, error_model="numpy")
+    np.testing.assert_array_equal([arithmetic.sin_cos(each) for each in angles], short)
+    np.testing.assert_array_equal([compiled(each) for each in angles], short)
+
+
 def test_bearing_gives_the_direction_between_minus_90_and_270():
     x, y = RNG.normal(size=(2, 5000))
     bearings = np.array([arithmetic.bearing(a, b) for a, b in zip(x, y, strict=True)])
