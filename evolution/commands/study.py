@@ -29,9 +29,10 @@ class StudyCommand:
     name: Positional[Literal["readings"]]
     """The study: readings, what the paper leaves open (docs/readings.md)."""
 
-    part: Literal["screening", "finalists"] = "screening"
-    """screening (3000 generations, one reading at a time and the geometry in depth) or finalists (the whole
-    experiment under the default and the three that came nearest to the paper in the screening)."""
+    part: Literal["screening", "finalists", "around"] = "screening"
+    """screening (3000 generations, one reading at a time and the geometry in depth), finalists (the whole
+    experiment under the default and the three that came nearest to the paper in the screening) or around
+    (3000 generations, other sizes of mutations, and one reading at a time on top of the favoured size)."""
 
     output: Path = Path("runs/readings")
     """Folder of the study; each part has a folder in it."""
@@ -76,9 +77,12 @@ class StudyCommand:
 
     def _part(self) -> Part:
         """The part that is asked for, with the numbers of seeds and generations that are."""
-        from evolution.study.variants import finalists, screening
+        from evolution.study.variants import around, finalists, screening
 
-        part = screening() if self.part == "screening" else finalists(self._nearest())
+        if self.part == "finalists":
+            part = finalists(self._nearest())
+        else:
+            part = {"screening": screening, "around": around}[self.part]()
         seeds = part.seeds if self.seeds is None else self.seeds
         if seeds < 1:
             raise ValueError(f"asked for {seeds} seeds; there must be at least 1")

@@ -62,6 +62,12 @@ GEOMETRY: Final[tuple[Overrides, ...]] = (
     {"object_radius": 10.0, "object_vision": "any_part"},
 )
 
+# What the screening and the finalists favour, and other sizes of it.
+FAVOURITE: Final[Overrides] = {"mutation_sd": 0.03}
+SIZES: Final = (0.07, 0.05, 0.03, 0.02, 0.01)
+# `success` is no part of the fitness.
+NO_FACTORS_AROUND: Final = ("mutation_sd", "success")
+
 
 @dataclass(frozen=True)
 class Part:
@@ -103,3 +109,11 @@ def finalists(nearest: Sequence[Readings]) -> Part:
     default = Readings()
     others = [world for world in nearest if world != default]
     return Part("finalists", (default, *others), tuple(Condition), seeds=10, generations=6000)
+
+
+def around() -> Part:
+    """Other sizes of mutations, and every alternative of the ledger by itself on top of the favourite."""
+    favourite = Readings().with_values(FAVOURITE)
+    sizes = [Readings(mutation_sd=size) for size in SIZES]
+    changed = [favourite.with_values(each) for each in FACTORS if not set(each) & set(NO_FACTORS_AROUND)]
+    return Part("around", (Readings(), *sizes, *changed))

@@ -24,7 +24,7 @@ from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import FILE, measure
 from evolution.study.results import write_study
 from evolution.study.table import group, nearest, run_rows, variant_rows
-from evolution.study.variants import FACTORS, finalists, screening
+from evolution.study.variants import FACTORS, around, finalists, screening
 
 LEDGER = (Path(__file__).parents[2] / "docs" / "ledger.md").read_text(encoding="utf-8")
 SETTINGS = Settings(population=12, elites=2, parents=6, generations=40)
@@ -63,11 +63,23 @@ def test_every_alternative_of_the_ledger_is_tried():
         assert (name, numbers if name == "sector_centres" else numbers[0]) in tried
 
 
-@pytest.mark.parametrize("part", [screening(), finalists([Readings(object_radius=8.0), Readings()])])
+PARTS = [screening(), finalists([Readings(object_radius=8.0), Readings()]), around()]
+
+
+@pytest.mark.parametrize("part", PARTS, ids=lambda part: part.name)
 def test_variants_are_distinct_worlds_the_default_among_them(part):
     configs = part.configs()
     assert len(set(configs)) == len(configs) == part.seeds * len(part.conditions) * len(part.worlds)
     assert sum(each.readings == Readings() for each in configs) == part.seeds * len(part.conditions)
+
+
+def test_around_changes_the_favourite_by_one_line_of_the_screening_at_a_time():
+    favourite, worlds = Readings(mutation_sd=0.03), around().worlds
+    sizes = [world for world in worlds if replace(world, mutation_sd=0.1) == Readings()]
+    assert sorted(world.mutation_sd for world in sizes) == [0.01, 0.02, 0.03, 0.05, 0.07, 0.1]
+    screened = {replace(world, mutation_sd=0.03) for world in screening().worlds}
+    others = [world for world in worlds if world not in sizes]
+    assert set(others) < screened - {favourite}
 
 
 def test_nearest_variant_is_the_one_whose_numbers_are_the_published_ones(measured):
