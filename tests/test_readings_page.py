@@ -12,6 +12,7 @@ from evolution.statistics import sign_flip_test
 
 DOCS = Path(__file__).parents[1] / "docs"
 PAGE = (DOCS / "readings.md").read_text(encoding="utf-8")
+FLOWING = " ".join(PAGE.split())
 NAMES = {
     "**default**": "default",
     "`mutation_sd` 0.03": "mutation-sd-0.03",
@@ -69,3 +70,18 @@ def test_fresh_seeds_say_what_the_page_quotes_of_them(runs):
         difference, p = re.fullmatch(r"([+-][\d.]+), p = ([\d.]+)", told).groups()
         assert f"{gains.mean():+.2f}" == difference
         assert f"{sign_flip_test(gains):.{len(p) - 2}f}" == p
+
+
+def test_plateaus_lack_whole_instructions_as_often_as_the_page_says(runs):
+    missing = {key: FITNESS_LIMIT - float(run["plateau"]) for key, run in runs.items()}
+    sevenths = {key: round(7 * gap) for key, gap in missing.items()}
+    near = sum(abs(gap - sevenths[key] / 7) <= 0.02 for key, gap in missing.items())
+    one_short = [run for key, run in runs.items() if key[1] == "with-ignore" and sevenths[key] == 1]
+    without_red = sum(lacks(run, "TOUCH Red") for run in one_short)
+    assert f"{near} of the {len(runs)} plateaus lie within 0.02 of 18/7" in FLOWING
+    assert f"Of the {len(one_short)} With-Ignore runs that are one short, {without_red} lack TOUCH Red" in FLOWING
+
+
+def lacks(run, instruction):
+    """Whether late agents fail in more than half of its trials."""
+    return (float(run[f"{instruction}, right"]) + float(run[f"{instruction}, left"])) / 2 < 0.5
