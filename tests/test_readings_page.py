@@ -77,9 +77,9 @@ def test_plateaus_lack_whole_instructions_as_often_as_the_page_says(runs):
     sevenths = {key: round(7 * gap) for key, gap in missing.items()}
     near = sum(abs(gap - sevenths[key] / 7) <= 0.02 for key, gap in missing.items())
     one_short = [run for key, run in runs.items() if key[1] == "with-ignore" and sevenths[key] == 1]
-    without_red = sum(lacks(run, "TOUCH Red") for run in one_short)
+    red = sum(lacks(run, "TOUCH Red") for run in one_short)
     assert f"{near} of the {len(runs)} plateaus lie within 0.02 of 18/7" in FLOWING
-    assert f"Of the {len(one_short)} With-Ignore runs that are one short, {without_red} lack TOUCH Red" in FLOWING
+    assert f"Of the {len(one_short)} With-Ignore runs that are one short, {red} lack TOUCH Red" in FLOWING
 
 
 def lacks(run, instruction):

@@ -29,10 +29,11 @@ class StudyCommand:
     name: Positional[Literal["readings"]]
     """The study: readings, what the paper leaves open (docs/readings.md)."""
 
-    part: Literal["screening", "finalists", "around"] = "screening"
+    part: Literal["screening", "finalists", "around", "confirmation"] = "screening"
     """screening (3000 generations, one reading at a time and the geometry in depth), finalists (the whole
-    experiment under the default and the three that came nearest to the paper in the screening) or around
-    (3000 generations, other sizes of mutations, and one reading at a time on top of the favoured size)."""
+    experiment under the default and the three that came nearest to the paper in the screening), around (as
+    the screening: other sizes of mutations, and one reading at a time on top of the favoured size) or
+    confirmation (the whole experiment under the three that came nearest around it, with fresh seeds)."""
 
     output: Path = Path("runs/readings")
     """Folder of the study; each part has a folder in it."""
@@ -77,10 +78,12 @@ class StudyCommand:
 
     def _part(self) -> Part:
         """The part that is asked for, with the numbers of seeds and generations that are."""
-        from evolution.study.variants import around, finalists, screening
+        from evolution.study.variants import around, confirmation, finalists, screening
 
         if self.part == "finalists":
-            part = finalists(self._nearest())
+            part = finalists(self._nearest("screening"))
+        elif self.part == "confirmation":
+            part = confirmation(self._nearest("around"))
         else:
             part = {"screening": screening, "around": around}[self.part]()
         seeds = part.seeds if self.seeds is None else self.seeds
@@ -89,16 +92,17 @@ class StudyCommand:
         generations = part.generations if self.generations is None else self.generations
         return replace(part, seeds=seeds, generations=generations)
 
-    def _nearest(self) -> list[Readings]:
-        """The readings that came nearest to the paper in the screening, as it stands in the same folder."""
+    def _nearest(self, among: Literal["screening", "around"]) -> list[Readings]:
+        """The readings that came nearest to the paper in a part that stands in the same folder."""
         from evolution.plan_file import read_plan
         from evolution.study.results import measured_variants
         from evolution.study.table import nearest
 
-        folder = self.output / "screening"
+        folder = self.output / among
         plan = read_plan(folder)
         if plan is None or not (variants := measured_variants(plan)):
-            raise ValueError(f"no screening is measured in {folder}; begin with: wordarm study readings")
+            command = f"wordarm study readings --part {among}"
+            raise ValueError(f"no run is measured in {folder}; begin with: {command}")
         return [each.runs[0].config.readings for each in nearest(variants)]
 
 

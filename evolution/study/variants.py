@@ -77,8 +77,9 @@ class Part:
         name: On the command line.
         worlds: The default and those it is compared with.
         conditions: In which each is evolved.
-        seeds: Runs of each variant and condition, seeds from 1 on.
+        seeds: Runs of each variant and condition.
         generations: Of each run.
+        first_seed: Of these runs.
     """
 
     name: str
@@ -86,13 +87,14 @@ class Part:
     conditions: tuple[Condition, ...] = (Condition.WITH_INDICATE,)
     seeds: int = 8
     generations: int = 3000
+    first_seed: int = 1
 
     def configs(self) -> list[RunConfig]:
         """Every run of this part, seed by seed, so that all variants are known early if not well."""
         settings = Settings(generations=self.generations)
         return [
             RunConfig(condition, seed, settings, world)
-            for seed in range(1, self.seeds + 1)
+            for seed in range(self.first_seed, self.first_seed + self.seeds)
             for world in self.worlds
             for condition in self.conditions
         ]
@@ -117,3 +119,8 @@ def around() -> Part:
     sizes = [Readings(mutation_sd=size) for size in SIZES]
     changed = [favourite.with_values(each) for each in FACTORS if not set(each) & set(NO_FACTORS_AROUND)]
     return Part("around", (Readings(), *sizes, *changed))
+
+
+def confirmation(nearest: Sequence[Readings]) -> Part:
+    """The whole experiment under what came nearest around the favourite, with seeds that had no say in it."""
+    return Part("confirmation", tuple(nearest), tuple(Condition), seeds=10, generations=6000, first_seed=11)

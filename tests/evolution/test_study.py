@@ -24,7 +24,7 @@ from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import FILE, measure
 from evolution.study.results import write_study
 from evolution.study.table import group, nearest, run_rows, variant_rows
-from evolution.study.variants import FACTORS, around, finalists, screening
+from evolution.study.variants import FACTORS, around, confirmation, finalists, screening
 
 LEDGER = (Path(__file__).parents[2] / "docs" / "ledger.md").read_text(encoding="utf-8")
 SETTINGS = Settings(population=12, elites=2, parents=6, generations=40)
@@ -202,7 +202,14 @@ def test_study_is_written_as_tables_and_pictures(measured, tmp_path):
     assert {each.suffix for each in paths} == {".csv", ".png", ".svg"}
 
 
-def test_finalists_need_a_screening(tmp_path, capsys):
-    assert main(["study", "readings", "--part=finalists", f"--output={tmp_path}"]) == 2
-    assert "no screening is measured" in capsys.readouterr().err
+@pytest.mark.parametrize(("part", "among"), [("finalists", "screening"), ("confirmation", "around")])
+def test_what_is_chosen_needs_what_it_is_chosen_from(part, among, tmp_path, capsys):
+    assert main(["study", "readings", f"--part={part}", f"--output={tmp_path}"]) == 2
+    message = f"no run is measured in {tmp_path / among}; begin with: wordarm study readings --part {among}"
+    assert message in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+def test_seeds_that_confirm_had_no_say_in_the_choice():
+    chosen_by = {each.seed for each in around().configs()}
+    assert chosen_by.isdisjoint(each.seed for each in confirmation([Readings()]).configs())
