@@ -33,7 +33,8 @@ class StudyCommand:
     """screening (3000 generations, one reading at a time and the geometry in depth), finalists (the whole
     experiment under the default and the three that came nearest to the paper in the screening), around (as
     the screening: other sizes of mutations, and one reading at a time on top of the favoured size) or
-    confirmation (the whole experiment under the three that came nearest around it, with fresh seeds)."""
+    confirmation (the whole experiment under the two that came nearest around it, and under both together,
+    with fresh seeds)."""
 
     output: Path = Path("runs/readings")
     """Folder of the study; each part has a folder in it."""

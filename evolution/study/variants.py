@@ -122,5 +122,16 @@ def around() -> Part:
 
 
 def confirmation(nearest: Sequence[Readings]) -> Part:
-    """The whole experiment under what came nearest around the favourite, with seeds that had no say in it."""
-    return Part("confirmation", tuple(nearest), tuple(Condition), seeds=10, generations=6000, first_seed=11)
+    """The whole experiment under the two that came nearest around the favourite, and under both together.
+
+    Its seeds had no say in the choice.
+
+    Raises:
+        ValueError: If there are not two.
+    """
+    if len(nearest) < 2:
+        raise ValueError("a single variant is measured around the favourite; let two be, to choose from")
+    (first, second), default = nearest[:2], Readings().to_mapping()
+    special = {name: value for name, value in second.to_mapping().items() if value != default[name]}
+    worlds = dict.fromkeys([first, second, first.with_values(special)])
+    return Part("confirmation", tuple(worlds), tuple(Condition), seeds=10, generations=6000, first_seed=11)

@@ -210,6 +210,12 @@ def test_what_is_chosen_needs_what_it_is_chosen_from(part, among, tmp_path, caps
     assert not list(tmp_path.iterdir())
 
 
-def test_seeds_that_confirm_had_no_say_in_the_choice():
-    chosen_by = {each.seed for each in around().configs()}
-    assert chosen_by.isdisjoint(each.seed for each in confirmation([Readings()]).configs())
+def test_confirmed_are_the_two_nearest_and_both_together_with_seeds_that_had_no_say():
+    seen, own = Readings(mutation_sd=0.03, object_vision="any_part"), Readings(starts_shared="genotype")
+    part = confirmation([seen, own, Readings()])
+    assert part.worlds == (seen, own, replace(seen, starts_shared="genotype"))
+    assert {each.seed for each in around().configs()}.isdisjoint(each.seed for each in part.configs())
+    less = replace(seen, mutation_sd=0.1)
+    assert confirmation([seen, less]).worlds == (seen, less)
+    with pytest.raises(ValueError, match="a single variant is measured"):
+        confirmation([seen])
