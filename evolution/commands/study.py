@@ -79,6 +79,7 @@ class StudyCommand:
 
     def _part(self) -> Part:
         """The part that is asked for, with the numbers of seeds and generations that are."""
+        from evolution.study.measures import check_generations
         from evolution.study.variants import around, confirmation, finalists, screening
 
         if self.part == "finalists":
@@ -91,6 +92,7 @@ class StudyCommand:
         if seeds < 1:
             raise ValueError(f"asked for {seeds} seeds; there must be at least 1")
         generations = part.generations if self.generations is None else self.generations
+        check_generations(generations)
         return replace(part, seeds=seeds, generations=generations)
 
     def _nearest(self, among: Literal["screening", "around"]) -> list[Readings]:

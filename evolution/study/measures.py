@@ -17,10 +17,9 @@ from evolution.analysis import PLATEAU_SHARE
 from evolution.config import RunConfig
 from evolution.evaluation import TRIALS_PER_AREA
 from evolution.folder import RunFolder
-from evolution.history import check_array
+from evolution.history import History, check_array
 from evolution.postevaluation import N_INSTRUCTIONS, best_genotypes, late_spans
 from evolution.randomness import Purpose, generator
-from evolution.recorded import recorded_history
 from evolution.results import FITNESS_LIMIT, PLATEAU_TOLERANCE
 from evolution.settings import N_BEST
 from evolution.solving import solved_trials
@@ -30,6 +29,8 @@ from evolution.subtasks import AgentClass, categories, classify
 FILE: Final = Path("measures") / "late.npz"
 # Elites live for many generations, so neighbours say little that is new.
 SAMPLE_STEP: Final = 10
+# So that one of them is in the last third of any run.
+FEWEST_GENERATIONS: Final = 3 * SAMPLE_STEP
 
 
 @dataclass(frozen=True)
@@ -81,23 +82,33 @@ def measure(folder: RunFolder) -> RunMeasures:
     """The measures of a finished run; what had to be simulated is kept beside it.
 
     Raises:
-        ValueError: If the run is not finished.
+        ValueError: If the run is not finished, or too short.
         DamagedFileError: If a file of it is damaged.
     """
+    check_generations(folder.config.settings.generations)
     if len(folder.finished_spans()) < len(folder.spans):
         raise ValueError(f"{folder.path} is not finished; go on with: wordarm study")
     successes = _late_successes(folder)
-    solved, best = solved_trials(folder), recorded_history(folder).best
+    solved = solved_trials(folder)
     n_trials = 2 * folder.config.settings.trials_per_area * len(folder.config.condition.experienced)
     all_solved = solved == n_trials
     first_late = late_spans(folder)[0].start
     return RunMeasures(
         config=folder.config,
-        plateau=float(np.median(best[-max(1, round(len(best) * PLATEAU_SHARE)) :])),
+        plateau=_plateau(folder),
         first_solved=int(np.argmax(all_solved)) if all_solved.any() else -1,
         solved_late=float(all_solved[first_late:].mean()),
         successes=successes,
     )
+
+
+def check_generations(generations: int) -> None:
+    """Refuse runs of too few generations to measure with a ValueError."""
+    if generations < FEWEST_GENERATIONS:
+        raise ValueError(
+            f"a run of {generations} generations is too short to be measured; "
+            f"it needs at least {FEWEST_GENERATIONS}"
+        )
 
 
 def is_measured(path: Path) -> bool:
@@ -108,6 +119,16 @@ def is_measured(path: Path) -> bool:
 def sampled_generations(folder: RunFolder) -> list[int]:
     """Every tenth of the late generations."""
     return [g for span in late_spans(folder) for g in span if g % SAMPLE_STEP == 0]
+
+
+def _plateau(folder: RunFolder) -> float:
+    """Median best fitness at the end of a finished run; only the parts it stands in are read."""
+    generations = folder.config.settings.generations
+    first = generations - max(1, round(generations * PLATEAU_SHARE))
+    parts = [
+        folder.read_part(span)[max(0, first - span.start) :] for span in folder.spans if span.stop > first
+    ]
+    return float(np.median(History.join(parts).best))
 
 
 def _late_successes(folder: RunFolder) -> NDArray[np.int16]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import time
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Final
 
@@ -22,9 +23,10 @@ from evolution.study.measures import is_measured, measure
 from evolution.study.table import VariantMeasures, group, run_rows, variant_rows
 from evolution.study.variants import Part
 from evolution.warm_workers import WarmStart
-from evolution.workers import Job
+from evolution.workers import Ended, Job
 
 MEASURING: Final = "measuring"
+COUNT_INTERVAL: Final = 15.0  # [s]
 
 
 def measure_runs(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
@@ -33,9 +35,27 @@ def measure_runs(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Failure, 
     if not chains:
         return ()
     print(f"measuring {len(chains)} runs", flush=True)
-    watcher = Watcher(on_note=lambda note: print(note, flush=True), wants_stop=lambda: stop.requested)
+    watcher = Watcher(
+        on_end=_counting(len(chains)),
+        on_note=lambda note: print(note, flush=True),
+        wants_stop=lambda: stop.requested,
+    )
     with WarmStart(plan.folder / LOGS / "workers.log") as warm:
         return run_jobs(chains, at_once, watcher, warm)
+
+
+def _counting(total: int) -> Callable[[Ended], None]:
+    """Print how many runs are measured, now and then and at the end."""
+    done, told_at = 0, time.monotonic()
+
+    def count(ended: Ended) -> None:
+        nonlocal done, told_at
+        done += ended.exit_code == 0
+        if done == total or time.monotonic() - told_at >= COUNT_INTERVAL:
+            told_at = time.monotonic()
+            print(f"{done} of {total} runs measured", flush=True)
+
+    return count
 
 
 def _lacks_measures(plan: Plan, standing: Standing) -> bool:

@@ -14,6 +14,7 @@ from evolution.cli import main
 from evolution.config import RunConfig
 from evolution.folder import RunFolder
 from evolution.postevaluation import post_evaluate
+from evolution.recorded import recorded_history
 from evolution.result_files import to_csv
 from evolution.run import evolve
 from evolution.settings import Settings
@@ -114,6 +115,20 @@ def test_measures_are_kept_and_damage_is_named(measured):
     with pytest.raises(DamagedFileError, match="remove it and repeat the command"):
         measure(run)
     file.write_bytes(before)
+
+
+def test_plateau_is_the_median_best_fitness_of_the_last_sixth(measured):
+    path, named = measured
+    best = recorded_history(RunFolder.open(path / "default" / "seed-0002")).best
+    assert named[0][1].plateau == np.median(best[-round(len(best) / 6) :])
+
+
+def test_a_study_of_runs_too_short_to_be_measured_is_refused(tmp_path, capsys):
+    assert main(["study", "readings", "--generations=29", f"--output={tmp_path}"]) == 2
+    assert (
+        "a run of 29 generations is too short to be measured; it needs at least 30" in capsys.readouterr().err
+    )
+    assert not list(tmp_path.iterdir())
 
 
 def test_unfinished_run_is_not_measured(tmp_path):
