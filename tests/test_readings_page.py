@@ -1,4 +1,4 @@
-"""docs/readings.md against the runs it stands on, docs/results/readings/finalists-runs.csv."""
+"""docs/readings.md against the runs it stands on, docs/results/readings/*-runs.csv."""
 
 import csv
 import re
@@ -23,12 +23,17 @@ CONDITIONS = ("With-Indicate", "With-Ignore")
 FRESH = range(11, 21)
 
 
-@pytest.fixture(scope="module")
-def runs():
-    """The runs of each variant and condition, by seed."""
-    with (DOCS / "results" / "readings" / "finalists-runs.csv").open(encoding="utf-8") as file:
+def read_runs(part):
+    """The runs of a part by variant, condition and seed."""
+    with (DOCS / "results" / "readings" / f"{part}-runs.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     return {(r["variant"], r["condition"], int(r["seed"])): r for r in rows}
+
+
+@pytest.fixture(scope="module")
+def runs():
+    """Those of the finalists."""
+    return read_runs("finalists")
 
 
 def rows_below(heading):
@@ -85,3 +90,23 @@ def test_plateaus_lack_whole_instructions_as_often_as_the_page_says(runs):
 def lacks(run, instruction):
     """Whether late agents fail in more than half of its trials."""
     return (float(run[f"{instruction}, right"]) + float(run[f"{instruction}, left"])) / 2 < 0.5
+
+
+def test_sizes_of_mutations_do_what_the_page_says():
+    around = read_runs("around")
+    rows = rows_below("| `mutation_sd` | plateau, mean [95 %]")
+    assert [size for size, *_ in rows] == ["**0.1**", "0.07", "0.05", "0.03", "0.02", "0.01"]
+    for size, plateau, at_limit, share in rows:
+        name = "default" if size == "**0.1**" else f"mutation-sd-{size}"
+        found = plateaus(around, name, "with-indicate", range(1, 9))
+        tops = [float(around[name, "with-indicate", seed]["sub-task I, category 10"]) for seed in range(1, 9)]
+        assert plateau.startswith(f"{found.mean():.2f} [")
+        assert int(at_limit) == (found >= FITNESS_LIMIT - PLATEAU_TOLERANCE).sum()
+        assert share == f"{100 * np.mean(tops):.0f} %"
+
+
+def test_runs_evolved_for_two_parts_came_out_the_same():
+    screening, around = read_runs("screening"), read_runs("around")
+    twice = screening.keys() & around.keys()
+    assert f"({len(twice)} of these runs had been evolved for the screening" in FLOWING
+    assert all(screening[key] == around[key] for key in twice)
