@@ -110,3 +110,37 @@ def test_runs_evolved_for_two_parts_came_out_the_same():
     twice = screening.keys() & around.keys()
     assert f"({len(twice)} of these runs had been evolved for the screening" in FLOWING
     assert all(screening[key] == around[key] for key in twice)
+
+
+def test_confirmation_table_says_what_the_runs_say(runs):
+    favourite = "mutation-sd-0.03"
+    names = {
+        "alone": favourite,
+        "`tau_exponent_max` 0": f"{favourite}+tau-exponent-max-0",
+        "`bias_ranges` negative": f"{favourite}+bias-ranges-negative",
+        "both": f"{favourite}+bias-ranges-negative+tau-exponent-max-0",
+    }
+    rows = rows_below("| with `mutation_sd` 0.03 | condition")
+    assert [(name, condition) for name, condition, *_ in rows] == [(n, c) for n in names for c in CONDITIONS]
+    both_parts = runs | read_runs("confirmation")
+    for name, condition, plateau, at_limit, share, compositional in rows:
+        found = plateaus(both_parts, names[name], condition, FRESH)
+        own = [both_parts[names[name], condition.lower(), seed] for seed in FRESH]
+        assert plateau.startswith(f"{found.mean():.2f} [")
+        assert int(at_limit.strip("*")) == (found >= FITNESS_LIMIT - PLATEAU_TOLERANCE).sum()
+        top = 100 * np.mean([float(run["sub-task I, category 10"]) for run in own])
+        assert share.strip("*").startswith(f"{top:.0f} % [")
+        assert int(compositional) == sum(float(run["fully compositional"]) > 0 for run in own)
+
+
+def test_all_three_readings_together_gain_what_the_page_says(runs):
+    together = "mutation-sd-0.03+bias-ranges-negative+tau-exponent-max-0"
+    found = plateaus(read_runs("confirmation"), together, "With-Indicate", FRESH)
+    gains = found - plateaus(runs, "mutation-sd-0.03", "With-Indicate", FRESH)
+    assert f"the plateau is higher by {gains.mean():.2f} [" in FLOWING
+    assert f"(p = {sign_flip_test(gains):.2f}), the share in category 10" in FLOWING
+
+
+def test_page_counts_the_variants(runs):
+    parts = [read_runs(part) for part in ("screening", "finalists", "around", "confirmation")]
+    assert f"the nearest of {len({key[0] for part in parts for key in part})} variants" in FLOWING
