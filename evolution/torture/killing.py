@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
@@ -147,13 +148,22 @@ def _kill(ordeal: Ordeal, victim: int) -> None:
     if not any(kill(victim, each) for each in reversed(ordeal.parents)):
         return
     held = [each for each in ordeal.runs if holder_of(each) == victim]
-    left = {(each, each.stat().st_mtime_ns) for each in temporaries(ordeal.folder)} - ordeal.counted
+    left = _unfinished(ordeal.folder) - ordeal.counted
     stages = sorted(stage_of(each) for each, _ in left if _may_have_written(ordeal, victim, held, each))
     if stages:
         ordeal.counted |= left
         ordeal.tally.writes[who, stages[0]] += 1
     else:
         ordeal.tally.others[who] += 1
+
+
+def _unfinished(folder: Path) -> set[tuple[Path, int]]:
+    """The unfinished files below a folder, each with the time it was last written."""
+    found = set()
+    for each in temporaries(folder):
+        with suppress(FileNotFoundError):  # another process has just given it its final name
+            found.add((each, each.stat().st_mtime_ns))
+    return found
 
 
 def _role(ordeal: Ordeal, process: int) -> str:

@@ -9,7 +9,7 @@ import pytest
 
 from evolution.folder import RunFolder
 from evolution.torture.disturbances import DAMAGES, _must_be_refused, damage_and_repair
-from evolution.torture.killing import TortureError
+from evolution.torture.killing import TortureError, _unfinished
 from evolution.torture.rounds import _compare
 from evolution.torture.stages import Schedule, final_name, is_temporary, stage_of, temporaries
 from evolution.torture.tally import PARENT, WORKER, Tally
@@ -124,3 +124,11 @@ def test_the_tally_counts_by_who_and_what():
         "  worker killed while it wrote: part 2, checkpoint 1",
         "  killed at other moments: parent 1",
     ]
+
+
+def test_an_unfinished_file_that_gets_its_name_while_it_is_counted_is_none(tmp_path):
+    (tmp_path / ".part.npz.tmp").touch()
+    (tmp_path / ".checkpoint.npz.tmp").symlink_to(
+        tmp_path / "gone"
+    )  # listed, and not there when it is looked at
+    assert [each.name for each, _ in _unfinished(tmp_path)] == [".part.npz.tmp"]
