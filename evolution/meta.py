@@ -38,7 +38,9 @@ def revision() -> str:
     try:
         # In a folder of another project's repository, our files are not tracked.
         _git(package, "ls-files", "--error-unmatch", "run.py")
-        return _git(package, "describe", "--always", "--dirty", "--abbrev=12")
+        # Not `describe --dirty`: that locks the index, and whoever is killed in it leaves the lock behind.
+        modified = "-dirty" if _git(package, "status", "--porcelain", "--untracked-files=no") else ""
+        return _git(package, "describe", "--always", "--abbrev=12") + modified
     except (OSError, subprocess.SubprocessError):
         return "unknown"
 
@@ -87,7 +89,7 @@ def _write(path: Path, meta: dict[str, Any]) -> None:
 
 def _git(folder: Path, *arguments: str) -> str:
     """What a git command answers; raises if it fails."""
-    command = ["git", "-C", str(folder), *arguments]
+    command = ["git", "--no-optional-locks", "-C", str(folder), *arguments]
     return subprocess.run(command, capture_output=True, text=True, check=True, timeout=10).stdout.strip()  # noqa: S603
 
 

@@ -1,10 +1,17 @@
 import json
+import os
+import re
+import shutil
+import subprocess
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from small_runs import SMALL, contents
 
+from evolution import meta
 from evolution.folder import RunFolder
 from evolution.lock import locked
 from evolution.population import first_population, next_population
@@ -121,3 +128,30 @@ def test_meta_tells_each_start_and_end(tmp_path):
     assert [each["first_generation"] for each in starts] == [0, 11]
     assert [each["next_generation"] for each in starts] == [11, 21]
     assert {"started", "ended", "versions", "revision", "machine"} <= starts[0].keys()
+
+
+def test_asking_for_the_revision_leaves_the_index_alone(tmp_path):
+    """A process killed while git has the index locked would leave the lock in the user's checkout."""
+    package = tmp_path / "evolution"
+    shutil.copytree(Path(meta.__file__).parent, package, ignore=shutil.ignore_patterns("__pycache__"))
+    git = ("git", "-C", str(tmp_path), "-c", "user.name=a", "-c", "user.email=a@b")
+    for arguments in (["init", "-q"], ["add", "."], ["commit", "-qm", "first"]):
+        subprocess.run([*git, *arguments], check=True)
+    index = tmp_path / ".git" / "index"
+    before = index.stat().st_mtime_ns, index.stat().st_ino
+    os.utime(package / "run.py", (1, 1))  # git would note in the index that it is unchanged all the same
+    code = "from evolution.meta import revision; print(revision())"
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    asked = [sys.executable, "-c", code]
+
+    def revision():
+        done = subprocess.run(
+            asked, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True
+        )
+        return done.stdout.strip()
+
+    clean = revision()
+    assert re.fullmatch("[0-9a-f]{12}", clean)
+    assert (index.stat().st_mtime_ns, index.stat().st_ino) == before
+    (package / "run.py").write_text("changed")
+    assert revision() == f"{clean}-dirty"
