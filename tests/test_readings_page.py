@@ -138,7 +138,22 @@ def test_all_three_readings_together_gain_what_the_page_says(runs):
     found = plateaus(read_runs("confirmation"), together, "With-Indicate", FRESH)
     gains = found - plateaus(runs, "mutation-sd-0.03", "With-Indicate", FRESH)
     assert f"the plateau is higher by {gains.mean():.2f} [" in FLOWING
-    assert f"(p = {sign_flip_test(gains):.2f}), the share in category 10" in FLOWING
+    column, own = "sub-task I, category 10", read_runs("confirmation")
+    shares = [
+        float(own[together, "with-indicate", seed][column])
+        - float(runs["mutation-sd-0.03", "with-indicate", seed][column])
+        for seed in FRESH
+    ]
+    points, p = 100 * np.mean(shares), sign_flip_test(np.array(shares))
+    told = f"the share in category 10 by {points:.0f} points (p = {p:.2f})"
+    assert f"(p = {sign_flip_test(gains):.2f}), {told}" in FLOWING
+
+
+def test_no_reading_around_the_favourite_stands_out():
+    with (DOCS / "results" / "readings" / "around-readings.csv").open(encoding="utf-8") as file:
+        corrected = [float(row["p after Holm"]) for row in csv.DictReader(file)]
+    assert f"of {len(corrected)} looks none has a p below 0.2 after Holm's correction" in FLOWING
+    assert min(corrected) >= 0.2
 
 
 def test_page_counts_the_variants(runs):

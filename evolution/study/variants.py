@@ -75,7 +75,7 @@ class Part:
 
     Attributes:
         name: On the command line.
-        worlds: The default and those it is compared with.
+        worlds: That are compared; the default is among them, except in the confirmation.
         conditions: In which each is evolved.
         seeds: Runs of each variant and condition.
         generations: Of each run.
@@ -130,7 +130,10 @@ def confirmation(nearest: Sequence[Readings]) -> Part:
         ValueError: If there are not two.
     """
     if len(nearest) < 2:
-        raise ValueError("a single variant is measured around the favourite; let two be, to choose from")
+        raise ValueError(
+            "the confirmation needs two variants to choose from, and one is measured around the favourite; "
+            "go on with: wordarm study readings --part around"
+        )
     (first, second), default = nearest[:2], Readings().to_mapping()
     special = {name: value for name, value in second.to_mapping().items() if value != default[name]}
     worlds = dict.fromkeys([first, second, first.with_values(special)])

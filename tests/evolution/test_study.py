@@ -232,5 +232,5 @@ def test_confirmed_are_the_two_nearest_and_both_together_with_seeds_that_had_no_
     assert {each.seed for each in around().configs()}.isdisjoint(each.seed for each in part.configs())
     less = replace(seen, mutation_sd=0.1)
     assert confirmation([seen, less]).worlds == (seen, less)
-    with pytest.raises(ValueError, match="a single variant is measured"):
+    with pytest.raises(ValueError, match="needs two variants to choose from, and one is measured"):
         confirmation([seen])
