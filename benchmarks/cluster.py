@@ -23,10 +23,10 @@ import psutil
 
 from evolution.cluster.address import connected
 from evolution.cluster.running import RemoteStart
-from evolution.config import RunConfig
 from evolution.plan import Plan
 from evolution.plan_runner import processes, run_plan
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 
 # CPU of a whole run of 6000 generations [s], as measured with `wordarm evolve` (README).
 WHOLE_RUN = (52, 81)

@@ -19,11 +19,11 @@ from pathlib import Path
 
 from evolution.cluster.address import connected
 from evolution.cluster.running import RemoteStart
-from evolution.config import RunConfig
 from evolution.jobs import Watcher
 from evolution.plan import Plan
 from evolution.plan_runner import run_plan
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.standing import is_held
 
 HOSTS = ("wordarm0", "wordarm1", "wordarm2")

@@ -20,11 +20,11 @@ import time
 from contextlib import redirect_stdout
 from pathlib import Path
 
-from evolution.config import RunConfig
 from evolution.meta import machine
 from evolution.plan import Plan, evolve_arguments
 from evolution.plan_runner import run_plan_shown
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.stage_times import FILE
 from evolution.warm_workers import WarmStart
 from evolution.workers import ColdStart, Job

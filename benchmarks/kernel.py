@@ -26,8 +26,8 @@ from rich.table import Table
 
 from arm2d import Condition, Readings, Trials, TrialScores, draw_trials, run_trials
 from benchmarks import numpy_peer
-from evolution.algorithm import breed, choose_parents, initial_genotypes, mean_in_order
-from evolution.settings import Settings
+from evolution.search.algorithm import breed, choose_parents, initial_genotypes, mean_in_order
+from evolution.search.settings import Settings
 
 GENERATIONS_OF_EVOLVED = 1500
 ROUNDS = 15

@@ -13,10 +13,11 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from evolution import run, scoring
-from evolution.config import RunConfig
+from evolution import run
 from evolution.folder import RunFolder
-from evolution.settings import Settings
+from evolution.search import scoring
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 
 
 class Clock:

@@ -19,9 +19,9 @@ from evolution.experiment import Experiment
 from evolution.folder import RunFolder
 from evolution.generalisers import generalisers_of
 from evolution.postevaluation import N_INSTRUCTIONS, TRIALS
-from evolution.randomness import Purpose, generator
 from evolution.results import ConditionResults, Results, TransitionOutcome
-from evolution.settings import N_BEST
+from evolution.search.randomness import Purpose, generator
+from evolution.search.settings import N_BEST
 from evolution.statistics import mean_interval
 from evolution.subtasks import N_CATEGORIES, SUBTASKS, AgentClass, categories, classify, count_table
 from evolution.tested_runs import TestedRun, read_tested_runs

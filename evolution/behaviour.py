@@ -15,7 +15,7 @@ from arm2d import Condition, Instruction, Readings, TrialRecord, Trials, decode,
 from arm2d.arithmetic import sigmoid
 from arm2d.constants import MAX_STEPS, N_INTER, VIEW_HALF_WIDTH
 from evolution.lineage_scores import offsets
-from evolution.randomness import Purpose, generator
+from evolution.search.randomness import Purpose, generator
 
 TRIALS_PER_AREA: Final = 20
 NEVER: Final = -1

@@ -23,14 +23,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import run_trials
-from evolution.algorithm import mean_in_order
-from evolution.config import RunConfig
-from evolution.evaluation import TRIALS_PER_AREA, evaluate
 from evolution.folder import CHAMPIONS, RunFolder
 from evolution.history import History
-from evolution.randomness import Purpose, generator
-from evolution.scoring import draw_evolution_trials
-from evolution.settings import N_BEST
+from evolution.search.algorithm import mean_in_order
+from evolution.search.config import RunConfig
+from evolution.search.evaluation import TRIALS_PER_AREA, evaluate
+from evolution.search.randomness import Purpose, generator
+from evolution.search.scoring import draw_evolution_trials
+from evolution.search.settings import N_BEST
 
 LAST_GENERATIONS: Final = 100
 N_CHAMPIONS: Final = 5

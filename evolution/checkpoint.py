@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from arm2d.constants import N_GENES
 from evolution.folder import CHECKPOINT, RunFolder
 from evolution.history import History, check_array, check_range, history_from_arrays
-from evolution.population import Population
+from evolution.search.population import Population
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from evolution.folder import RunFolder
 from evolution.history import check_array
 from evolution.lesions import LESIONS, lesion_scores
 from evolution.postevaluation import N_INSTRUCTIONS, late_history, read_post_evaluation
-from evolution.settings import N_BEST
+from evolution.search.settings import N_BEST
 from evolution.storage import DamagedFileError, make_folder
 from evolution.subtasks import AgentClass, classify
 from evolution.variance import VarianceShares, bin_times

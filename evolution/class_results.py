@@ -16,7 +16,7 @@ from evolution.class_observation import CLASSES, PARTS, Observation, Sampling
 from evolution.events import WINDOWS
 from evolution.folder import RunFolder
 from evolution.lesions import LESIONS
-from evolution.randomness import Purpose, generator
+from evolution.search.randomness import Purpose, generator
 from evolution.statistics import mean_interval
 from evolution.subtasks import AgentClass
 

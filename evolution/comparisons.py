@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from arm2d import Condition
 from evolution.postevaluation import N_INSTRUCTIONS
-from evolution.randomness import Purpose, generator
 from evolution.results import ConditionResults
+from evolution.search.randomness import Purpose, generator
 from evolution.statistics import Comparison, compare, wilcoxon_as_published
 from evolution.subtasks import SUBTASKS, AgentClass, categories, classify
 

@@ -6,11 +6,11 @@ import math
 import time
 from typing import Final
 
-from evolution.config import RunConfig
 from evolution.folder import GENERATIONS_PER_PART
 from evolution.plan import Plan
-from evolution.population import first_population, next_population
-from evolution.scoring import score_population
+from evolution.search.config import RunConfig
+from evolution.search.population import first_population, next_population
+from evolution.search.scoring import score_population
 from evolution.standing import TESTS_PER_EVOLUTION, Pace, size_of
 
 GENERATIONS: Final = 5

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Condition
-from evolution.config import RunConfig
 from evolution.plan import Plan, World
+from evolution.search.config import RunConfig
 from evolution.variants import check_name
 
 MOST_RUNS: Final = 100_000

@@ -20,7 +20,7 @@ from arm2d.drawing import INK
 from evolution.generalisers import Generalisers
 from evolution.report_text import TITLES
 from evolution.results import ConditionResults, Results
-from evolution.settings import N_BEST
+from evolution.search.settings import N_BEST
 from evolution.style import FAINT, STYLE
 from evolution.subtasks import AgentClass, classify
 

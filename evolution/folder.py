@@ -16,8 +16,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.config import RunConfig
 from evolution.history import History, history_from_arrays
+from evolution.search.config import RunConfig
+from evolution.search.toml import read_toml_file
 from evolution.storage import (
     DamagedFileError,
     make_folder,
@@ -26,7 +27,6 @@ from evolution.storage import (
     write_arrays,
     write_atomically,
 )
-from evolution.toml import read_toml_file
 
 GENERATIONS_PER_PART: Final = 100
 CONFIG: Final = "config.toml"

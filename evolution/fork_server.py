@@ -42,11 +42,11 @@ def _load() -> None:
     import evolution.run  # noqa: F401 - loaded for the workers
     from arm2d import Condition
     from evolution.cli import parse
-    from evolution.config import RunConfig
-    from evolution.evaluation import evaluate
-    from evolution.population import first_population, next_population
-    from evolution.scoring import score_population
-    from evolution.settings import Settings
+    from evolution.search.config import RunConfig
+    from evolution.search.evaluation import evaluate
+    from evolution.search.population import first_population, next_population
+    from evolution.search.scoring import score_population
+    from evolution.search.settings import Settings
 
     for condition in Condition:
         config = RunConfig(condition, settings=Settings(population=5, elites=1, parents=2, trials_per_area=1))

@@ -19,10 +19,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.algorithm import rank as ranking
 from evolution.folder import RunFolder
 from evolution.postevaluation import late_history
-from evolution.settings import N_BEST
+from evolution.search.algorithm import rank as ranking
+from evolution.search.settings import N_BEST
 from evolution.statistics import sign_flip_test
 
 # Mean rank of an agent drawn at random from the five best, 0 for the best.

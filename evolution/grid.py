@@ -17,10 +17,10 @@ from typing import Any, Final
 from arm2d import Condition, Readings
 from evolution.experiment_spec import ExperimentSpec, check_size
 from evolution.plan import World
+from evolution.search.settings import Settings
+from evolution.search.toml import read_toml
+from evolution.search.toml_keys import check_keys, one_of_kind, table_of
 from evolution.seeds import read_seeds
-from evolution.settings import Settings
-from evolution.toml import read_toml
-from evolution.toml_keys import check_keys, one_of_kind, table_of
 from evolution.variants import check_name, value_name, variant_name
 
 KEYS: Final = (

@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
-from evolution.algorithm import mean_in_order, rank
-from evolution.config import RunConfig
-from evolution.population import Population
-from evolution.settings import N_BEST
+from evolution.search.algorithm import mean_in_order, rank
+from evolution.search.config import RunConfig
+from evolution.search.population import Population
+from evolution.search.settings import N_BEST
 from evolution.storage import DamagedFileError
 
 # F1, F2 and F3 are at most 1 each.

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
-from evolution.algorithm import rank as ranking
 from evolution.folder import RunFolder
 from evolution.history import History
-from evolution.population import first_population
 from evolution.recorded import recorded_history
 from evolution.replay import ContradictionError, replay
+from evolution.search.algorithm import rank as ranking
+from evolution.search.population import first_population
 
 
 @dataclass(frozen=True)

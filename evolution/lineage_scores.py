@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, TrialRecord, Trials, draw_trials, record_trial, run_trials
 from evolution.lineage import Lineage
-from evolution.randomness import Purpose, generator
+from evolution.search.randomness import Purpose, generator
 
 # A skill is had above 75 %, the paper's limit for its classes of agents. It has come when 25 generations
 # of the line in a row have it, and come for good when nine tenths of the rest have it too: one lucky or

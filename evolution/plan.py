@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Readings
-from evolution.config import RunConfig
 from evolution.folder import CONFIG, RunFolder, refuse_other
 from evolution.lock import RunInUseError, locked
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.standing import Pace, Standing, pace_of, standing_of
 from evolution.variants import common_settings, variant_name
 from evolution.workers import Job

@@ -13,11 +13,11 @@ from typing import Any, Final
 import tomli_w
 
 from arm2d import Condition, Readings
-from evolution.config import FORMAT, RunConfig
 from evolution.plan import Plan
-from evolution.settings import Settings
+from evolution.search.config import FORMAT, RunConfig
+from evolution.search.settings import Settings
+from evolution.search.toml import read_toml
 from evolution.storage import make_folder, write_atomically
-from evolution.toml import read_toml
 from evolution.variants import check_name
 
 FILE: Final = "plan.toml"

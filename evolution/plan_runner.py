@@ -10,13 +10,13 @@ from dataclasses import replace
 
 from rich.console import Console
 
-from evolution.config import RunConfig
 from evolution.folder import RunFolder
 from evolution.interrupt import StopRequest
 from evolution.jobs import Failure, Start, Watcher, run_jobs
 from evolution.live_table import shown_table
 from evolution.plan import LOGS, Plan, in_use
 from evolution.plan_file import write_plan
+from evolution.search.config import RunConfig
 from evolution.stage_times import note_time
 from evolution.standing import Pace, Standing, pace_of
 from evolution.warm_workers import WarmStart

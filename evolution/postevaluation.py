@@ -18,12 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import draw_trials, run_trials
-from evolution.config import RunConfig
-from evolution.evaluation import TRIALS_PER_AREA
 from evolution.folder import RunFolder
 from evolution.history import History, check_array, check_range
-from evolution.randomness import Purpose, generator
-from evolution.settings import N_BEST
+from evolution.search.config import RunConfig
+from evolution.search.evaluation import TRIALS_PER_AREA
+from evolution.search.randomness import Purpose, generator
+from evolution.search.settings import N_BEST
 from evolution.storage import make_folder
 
 FOLDER: Final = "postevaluation"

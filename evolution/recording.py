@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from arm2d import Instruction, TrialRecord, draw_trials, record_trial
-from evolution.randomness import Purpose, generator
+from evolution.search.randomness import Purpose, generator
 from evolution.sources import Source
 
 

@@ -11,9 +11,9 @@ from evolution.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
 from evolution.folder import CHAMPIONS, RunFolder
 from evolution.history import HistoryBuilder
 from evolution.lock import locked
-from evolution.population import Population, first_population, next_population
 from evolution.replay import replay
-from evolution.scoring import score_population
+from evolution.search.population import Population, first_population, next_population
+from evolution.search.scoring import score_population
 from evolution.storage import DamagedFileError
 
 Tell = Callable[[str], None]

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from evolution.algorithm import rank
-from evolution.config import RunConfig
 from evolution.folder import RunFolder
 from evolution.history import History
-from evolution.population import Population, first_population, next_population
 from evolution.recorded import recorded_histories
-from evolution.settings import N_BEST
+from evolution.search.algorithm import rank
+from evolution.search.config import RunConfig
+from evolution.search.population import Population, first_population, next_population
+from evolution.search.settings import N_BEST
 
 
 class ContradictionError(ValueError):

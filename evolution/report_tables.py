@@ -5,7 +5,7 @@ from __future__ import annotations
 from evolution import published
 from evolution.report_text import TITLES, Line, p_value, percent, points
 from evolution.results import Results
-from evolution.settings import Settings
+from evolution.search.settings import Settings
 from evolution.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
 
 

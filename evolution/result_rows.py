@@ -11,7 +11,7 @@ import numpy as np
 from evolution import published
 from evolution.generalisers import CHANCE_RANK
 from evolution.results import Results
-from evolution.settings import N_BEST
+from evolution.search.settings import N_BEST
 from evolution.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
 
 

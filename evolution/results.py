@@ -16,7 +16,7 @@ from arm2d import Condition
 from evolution.experiment import Experiment
 from evolution.folder import RunFolder
 from evolution.generalisers import Generalisers
-from evolution.settings import N_BEST
+from evolution.search.settings import N_BEST
 from evolution.statistics import Comparison
 from evolution.subtasks import SUBTASKS, AgentClass
 

@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from evolution import meta
-from evolution.algorithm import mean_in_order
 from evolution.champion import keep_champions
 from evolution.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
-from evolution.config import RunConfig
 from evolution.folder import CHAMPIONS, META, RunFolder, refuse_other
 from evolution.history import HistoryBuilder
 from evolution.lock import locked
-from evolution.population import first_population, next_population
 from evolution.replay import replay_part
-from evolution.scoring import score_population
+from evolution.search.algorithm import mean_in_order
+from evolution.search.config import RunConfig
+from evolution.search.population import first_population, next_population
+from evolution.search.scoring import score_population
 from evolution.storage import DamagedFileError, make_folder
 
 

@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from typing import Any, Final
 
-from evolution.config import SEED_LIMIT
+from evolution.search.config import SEED_LIMIT
 
 MOST_SEEDS: Final = 10_000
 RANGE: Final = re.compile(r"\s*(\d{1,19})\s*(?:-\s*(\d{1,19})\s*)?")

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, check_genotypes
-from evolution.algorithm import rank as ranking
-from evolution.config import RunConfig
 from evolution.folder import CHAMPIONS, RunFolder
 from evolution.genotype_files import read_genotype_file
 from evolution.recorded import recorded_generation, recorded_histories
 from evolution.replay import population_at
-from evolution.settings import N_BEST
+from evolution.search.algorithm import rank as ranking
+from evolution.search.config import RunConfig
+from evolution.search.settings import N_BEST
 
 SHIPPED: Final = Path(__file__).parent / "champions"
 PROVENANCE: Final = ("generations", "ranks")

@@ -14,12 +14,12 @@ from statistics import median
 from typing import Final
 
 from evolution import postevaluation, transition_test
-from evolution.config import RunConfig
 from evolution.experiment import state_of
 from evolution.folder import CHAMPIONS, CONFIG, GENERATIONS_PER_PART, LOCK, RunFolder
 from evolution.lease import held_elsewhere
 from evolution.postevaluation import late_spans
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.solving import FILE as SOLVED
 from evolution.storage import DamagedFileError
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from rich.table import Table
 
-from evolution.evaluation import Evaluation
+from evolution.search.evaluation import Evaluation
 from evolution.sources import Source
 
 

@@ -25,8 +25,8 @@ from arm2d import (
     draw_trials,
     run_trials,
 )
-from evolution.evaluation import TRIALS_PER_AREA
 from evolution.postevaluation import TRIALS
+from evolution.search.evaluation import TRIALS_PER_AREA
 
 # The change comes at one of so many steps, from the first after which the target is in view.
 CHANGE_STEPS: Final = 10

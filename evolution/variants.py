@@ -8,7 +8,7 @@ from dataclasses import fields, replace
 from typing import Any, Final
 
 from arm2d import Condition, Readings
-from evolution.settings import Settings
+from evolution.search.settings import Settings
 
 DEFAULT_NAME: Final = "default"
 LONGEST_NAME: Final = 200

@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 
 from arm2d import Condition
-from evolution.config import RunConfig
 from evolution.folder import RunFolder
 from evolution.recorded import recorded_history
 from evolution.run import evolve
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 
 RUNS = ((Condition.WITH_INDICATE, 7), (Condition.WITH_INDICATE, 4), (Condition.WITH_IGNORE, 1))
 GENERATIONS = 1200

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from evolution.commands.agent import AgentCommand
 
 if TYPE_CHECKING:
-    from evolution.evaluation import Evaluation
+    from evolution.search.evaluation import Evaluation
     from evolution.sources import Source
 
 
@@ -30,7 +30,7 @@ class Evaluate(AgentCommand):
         """Evaluate, print and write."""
         from rich.console import Console
 
-        from evolution.evaluation import evaluate
+        from evolution.search.evaluation import evaluate
         from evolution.tables import terminal_table
 
         source = self.find_agent()

@@ -10,8 +10,8 @@ from typing import Annotated
 from tyro.conf import arg
 
 from arm2d import Condition, Readings
-from evolution.config import RunConfig
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 
 INTERRUPTED = 130
 

@@ -12,8 +12,8 @@ from tyro.conf import arg
 from arm2d import Condition
 from evolution.commands.cluster_flags import ClusterFlags
 from evolution.commands.evolve import INTERRUPTED, UncheckedReadings
-from evolution.config import RunConfig
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 
 if TYPE_CHECKING:
     from evolution.interrupt import StopRequest

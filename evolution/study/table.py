@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from arm2d import Condition, Instruction
 from evolution import published
-from evolution.randomness import Purpose, generator
+from evolution.search.randomness import Purpose, generator
 from evolution.statistics import mean_interval, midranks
 from evolution.study.measures import RunMeasures
 from evolution.subtasks import SUBTASKS, AgentClass

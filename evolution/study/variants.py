@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from arm2d import Condition, Readings
-from evolution.config import RunConfig
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 
 Overrides = Mapping[str, Any]
 

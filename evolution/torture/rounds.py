@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Condition
-from evolution.config import RunConfig
 from evolution.plan import Plan, evolve_arguments
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.storage import make_folder
 from evolution.torture.disturbances import (
     damage_and_repair,

@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 
 from arm2d import Condition, Readings, draw_trials, run_trials
-from evolution.config import RunConfig
 from evolution.folder import RunFolder
 from evolution.recorded import recorded_history
 from evolution.run import evolve
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 
 STORED = Path(__file__).with_name("golden.json")
 EVOLVED = Path(__file__).parents[1] / "evolved.npz"

@@ -1,7 +1,7 @@
 """A run small enough for tests: two whole parts and a short one, a millisecond per generation."""
 
-from evolution.config import RunConfig
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 
 SMALL = RunConfig(seed=11, settings=Settings(population=10, elites=2, parents=5, generations=230))
 SMALL_FLAGS = ["--seed=11", "--population=10", "--elites=2", "--parents=5", "--generations=230"]

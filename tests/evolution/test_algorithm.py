@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from arm2d import Readings
 from arm2d.constants import N_GENES
-from evolution.algorithm import breed, choose_parents, initial_genotypes, mean_in_order, mutate, rank
-from evolution.settings import Settings
+from evolution.search.algorithm import breed, choose_parents, initial_genotypes, mean_in_order, mutate, rank
+from evolution.search.settings import Settings
 
 SETTINGS = Settings()
 READINGS = Readings()

@@ -2,11 +2,12 @@ import numpy as np
 from small_runs import SMALL
 
 from arm2d import NON_EXPERIENCED
-from evolution import champion, scoring
+from evolution import champion
 from evolution.champion import Candidates, choose_champions, find_candidates
-from evolution.evaluation import evaluate
 from evolution.folder import CHAMPIONS, RunFolder
 from evolution.recorded import recorded_history
+from evolution.search import scoring
+from evolution.search.evaluation import evaluate
 
 
 def test_candidates_are_the_distinct_best_of_the_last_100_generations(finished_run):

@@ -11,14 +11,14 @@ from arm2d import Condition, Readings
 from evolution import published
 from evolution.analysis import analyse
 from evolution.cli import main
-from evolution.config import RunConfig
 from evolution.experiment import open_experiment
 from evolution.figures_compare import compare_figure
 from evolution.folder import RunFolder
 from evolution.key_numbers import AT_LIMIT, PLATEAU, by_condition, departures, key_numbers, top_name
 from evolution.postevaluation import post_evaluate
 from evolution.run import evolve
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.transition_test import run_transition_test
 
 SETTINGS = Settings(population=10, elites=2, parents=5, generations=6)

@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from arm2d import Condition, Readings
-from evolution.config import FORMAT, RunConfig
-from evolution.settings import Settings
+from evolution.search.config import FORMAT, RunConfig
+from evolution.search.settings import Settings
 
 OTHER = RunConfig(
     Condition.WITH_IGNORE,

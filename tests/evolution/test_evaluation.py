@@ -7,8 +7,8 @@ import pytest
 from small_runs import SMALL
 
 from arm2d import Condition, Readings
-from evolution.config import RunConfig
-from evolution.evaluation import evaluate
+from evolution.search.config import RunConfig
+from evolution.search.evaluation import evaluate
 from evolution.sources import Source
 from evolution.tables import rows_of, terminal_table, to_csv, to_json
 

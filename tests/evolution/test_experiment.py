@@ -14,12 +14,12 @@ from rich.console import Console
 
 from arm2d import Readings
 from evolution.cli import main
-from evolution.config import RunConfig
 from evolution.live_table import plain_lines, run_table
 from evolution.plan import Plan
 from evolution.plan_runner import PlanWatch
 from evolution.run import evolve
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.standing import Pace, Standing
 
 FILE = """

@@ -7,7 +7,6 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from arm2d import Condition, Readings
-from evolution.evaluation import evaluate
 from evolution.figures import (
     draw_fitness_curve,
     draw_heat_map,
@@ -19,6 +18,7 @@ from evolution.figures import (
 )
 from evolution.folder import RunFolder
 from evolution.recorded import recorded_history
+from evolution.search.evaluation import evaluate
 
 
 @pytest.fixture(scope="module")

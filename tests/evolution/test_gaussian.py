@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 
-from evolution.gaussian import draw_gaussian, fill_gaussian
+from evolution.search.gaussian import draw_gaussian, fill_gaussian
 
 
 def test_compiled_numbers_have_the_bits_of_plain_python():

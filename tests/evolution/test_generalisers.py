@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from evolution.algorithm import rank
 from evolution.figures_generalisers import draw_density, draw_marks
 from evolution.folder import RunFolder
 from evolution.generalisers import (
@@ -15,6 +14,7 @@ from evolution.generalisers import (
 )
 from evolution.postevaluation import late_spans
 from evolution.recorded import recorded_history
+from evolution.search.algorithm import rank
 from evolution.statistics import sign_flip_test
 
 

@@ -8,12 +8,12 @@ import pytest
 
 from arm2d import Readings
 from evolution.cli import main
-from evolution.config import RunConfig
 from evolution.experiment_spec import MOST_RUNS
 from evolution.grid import read_experiment
 from evolution.plan import Plan
 from evolution.plan_file import read_plan, write_plan
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.variants import variant_name
 
 

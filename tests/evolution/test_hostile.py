@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 
 from arm2d import Instruction, Readings
 from evolution.arrays import UnreadableError, unpack_archive, unpack_array
-from evolution.config import RunConfig
 from evolution.grid import experiment_from_mapping
-from evolution.settings import Settings
-from evolution.toml import DEEPEST, read_toml
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
+from evolution.search.toml import DEEPEST, read_toml
 
 KEYS = [
     "format",

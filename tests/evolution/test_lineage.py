@@ -2,9 +2,7 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, Readings, draw_trials, record_trial
-from evolution.algorithm import rank as ranking
 from evolution.cli import main
-from evolution.evaluation import evaluate
 from evolution.figures_lineage import lineage_figure
 from evolution.folder import RunFolder
 from evolution.innovations import innovations, lineage_arrays
@@ -12,6 +10,8 @@ from evolution.lineage import ancestor_indices, trace_lineage
 from evolution.lineage_scores import Skills, longest_bent_stay, offsets, score_lineage
 from evolution.recorded import recorded_history
 from evolution.replay import population_at
+from evolution.search.algorithm import rank as ranking
+from evolution.search.evaluation import evaluate
 from evolution.storage import DamagedFileError, read_arrays, write_arrays
 
 

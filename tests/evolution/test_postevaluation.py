@@ -9,7 +9,6 @@ from arm2d import Condition
 from evolution import solving, transition_test
 from evolution.analysis import analyse
 from evolution.cli import main, parse
-from evolution.config import RunConfig
 from evolution.experiment import open_experiment
 from evolution.figures_paper import all_figures
 from evolution.folder import RunFolder
@@ -22,7 +21,8 @@ from evolution.postevaluation import (
 )
 from evolution.repair import repair
 from evolution.run import evolve
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.shipping import notable_agents, ship
 from evolution.solving import solved_trials
 from evolution.sources import find_source

@@ -1,6 +1,6 @@
 from itertools import product
 
-from evolution.randomness import Purpose, generator
+from evolution.search.randomness import Purpose, generator
 
 
 def test_the_same_seed_purpose_and_generation_give_the_same_numbers():

@@ -14,7 +14,6 @@ from matplotlib.figure import Figure
 from arm2d import Condition, Readings, draw_trials, record_trial
 from evolution import published
 from evolution.analysis import analyse
-from evolution.config import RunConfig
 from evolution.experiment import open_experiment
 from evolution.notable import best_agent
 from evolution.postevaluation import post_evaluate
@@ -25,7 +24,8 @@ from evolution.report_sentences import result_sentences
 from evolution.report_tables import comparison_rows, run_rows
 from evolution.report_text import p_value, percent
 from evolution.run import evolve
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.solving import solved_trials
 from evolution.subtasks import SUBTASKS
 from evolution.transition_test import run_transition_test

@@ -12,11 +12,11 @@ import pytest
 
 from arm2d import Condition, Readings
 from evolution.cli import main, parse
-from evolution.config import RunConfig
 from evolution.live_table import duration, plain_lines
 from evolution.lock import locked
 from evolution.plan import Plan, evolve_arguments, in_use
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.stage_times import FILE, stage_times
 from evolution.standing import Pace, Standing, is_held, standing_of, time_left
 from evolution.torture.rounds import Torture, torture

@@ -14,12 +14,12 @@ from small_runs import SMALL, contents
 from evolution import meta
 from evolution.folder import RunFolder
 from evolution.lock import locked
-from evolution.population import first_population, next_population
 from evolution.recorded import recorded_generation, recorded_history
 from evolution.replay import population_at
 from evolution.run import Watcher, evolve
-from evolution.scoring import score_population
-from evolution.settings import Settings
+from evolution.search.population import first_population, next_population
+from evolution.search.scoring import score_population
+from evolution.search.settings import Settings
 
 
 def stopping_at(*generations):

@@ -4,10 +4,10 @@ import pytest
 from small_runs import contents
 
 from arm2d import Condition
-from evolution.config import RunConfig
 from evolution.plan import Plan
 from evolution.plan_runner import run_plan
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 
 TINY = Settings(population=8, elites=2, parents=4, generations=12, trials_per_area=1)
 

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from arm2d import NON_EXPERIENCED, Condition, Instruction, Readings
-from evolution import scoring
-from evolution.algorithm import initial_genotypes
-from evolution.config import RunConfig
-from evolution.population import Population, first_population
-from evolution.scoring import draw_evolution_trials, score_population
-from evolution.settings import Settings
+from evolution.search import scoring
+from evolution.search.algorithm import initial_genotypes
+from evolution.search.config import RunConfig
+from evolution.search.population import Population, first_population
+from evolution.search.scoring import draw_evolution_trials, score_population
+from evolution.search.settings import Settings
 
 CONFIG = RunConfig(seed=5, settings=Settings(population=10, parents=5))
 SHARED, OWN = CONFIG, replace(CONFIG, readings=Readings(starts_shared="genotype"))

@@ -11,13 +11,13 @@ import pytest
 from arm2d import Condition, Readings
 from arm2d.readings import choices
 from evolution.cli import main
-from evolution.config import RunConfig
 from evolution.folder import RunFolder
 from evolution.postevaluation import post_evaluate
 from evolution.recorded import recorded_history
 from evolution.result_files import to_csv
 from evolution.run import evolve
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.solving import solved_trials
 from evolution.storage import DamagedFileError
 from evolution.study.effects import effect_rows, effects, holm

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
-from evolution.config import RunConfig
 from evolution.folder import RunFolder
 from evolution.plan import Plan
 from evolution.postevaluation import post_evaluate
 from evolution.run import Watcher, evolve
-from evolution.settings import Settings
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.solving import solved_trials
 from evolution.transition_test import run_transition_test
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.algorithm import breed, choose_parents, initial_genotypes
-from evolution.config import RunConfig
-from evolution.randomness import Purpose, generator
+from evolution.search.algorithm import breed, choose_parents, initial_genotypes
+from evolution.search.config import RunConfig
+from evolution.search.randomness import Purpose, generator
 
 
 @dataclass(frozen=True)

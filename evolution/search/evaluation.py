@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from arm2d import Condition, Readings, draw_trials, run_trials
-from evolution.algorithm import mean_in_order
-from evolution.randomness import Purpose, generator
+from evolution.search.algorithm import mean_in_order
+from evolution.search.randomness import Purpose, generator
 
 # The paper's: 80 trials of each instruction, 40 from each start area.
 TRIALS_PER_AREA: Final = 40

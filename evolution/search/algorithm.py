@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from arm2d import Readings
 from arm2d.constants import N_GENES
-from evolution.gaussian import draw_gaussian
-from evolution.settings import Settings
+from evolution.search.gaussian import draw_gaussian
+from evolution.search.settings import Settings
 
 
 def initial_genotypes(settings: Settings, rng: np.random.Generator) -> NDArray[np.float64]:

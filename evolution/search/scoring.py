@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Instruction, Readings, Trials, draw_trials, run_trials
-from evolution.algorithm import mean_in_order
-from evolution.config import RunConfig
-from evolution.population import Population
-from evolution.randomness import Purpose, generator
+from evolution.search.algorithm import mean_in_order
+from evolution.search.config import RunConfig
+from evolution.search.population import Population
+from evolution.search.randomness import Purpose, generator
 
 
 def draw_evolution_trials(

@@ -9,8 +9,8 @@ from typing import Any, Final
 import tomli_w
 
 from arm2d import Condition, Readings
-from evolution.settings import Settings
-from evolution.toml import read_toml
+from evolution.search.settings import Settings
+from evolution.search.toml import read_toml
 
 # Raised when an older reader could misunderstand the file.
 FORMAT: Final = 1
