@@ -20,9 +20,9 @@ import time
 from contextlib import redirect_stdout
 from pathlib import Path
 
-from evolution.meta import machine
 from evolution.plan import Plan, evolve_arguments
 from evolution.plan_runner import run_plan_shown
+from evolution.runs.meta import machine
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.stage_times import FILE

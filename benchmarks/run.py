@@ -13,8 +13,8 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from evolution import run
-from evolution.folder import RunFolder
+from evolution.runs import run
+from evolution.runs.folder import RunFolder
 from evolution.search import scoring
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings

@@ -36,6 +36,6 @@
     meta, progress       with what a run was computed; how it gets on
     cli, commands/       the command line
 
-Modules are imported by their names, such as `from evolution.run import evolve`: the command line
+Modules are imported by their names, such as `from evolution.runs.run import evolve`: the command line
 answers `--help` without loading the compiled ones.
 """

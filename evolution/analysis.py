@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from arm2d import Condition
 from evolution.comparisons import compare_conditions
 from evolution.experiment import Experiment
-from evolution.folder import RunFolder
 from evolution.generalisers import generalisers_of
 from evolution.postevaluation import N_INSTRUCTIONS, TRIALS
 from evolution.results import ConditionResults, Results, TransitionOutcome
+from evolution.runs.folder import RunFolder
 from evolution.search.randomness import Purpose, generator
 from evolution.search.settings import N_BEST
 from evolution.statistics import mean_interval

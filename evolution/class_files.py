@@ -13,10 +13,10 @@ from evolution.class_results import ClassBehaviour, class_behaviours, class_rows
 from evolution.figures import save_figure
 from evolution.figures_classes import Behaviours, classes_figure
 from evolution.figures_fans import fans_figure
-from evolution.folder import RunFolder
 from evolution.result_rows import to_csv
 from evolution.results import Results
-from evolution.storage import make_folder, write_atomically
+from evolution.runs.folder import RunFolder
+from evolution.runs.storage import make_folder, write_atomically
 from evolution.subtasks import AgentClass
 
 

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from evolution.behaviour import record_behaviour
 from evolution.events import WINDOWS, shares_by_event
-from evolution.folder import RunFolder
-from evolution.history import check_array
 from evolution.lesions import LESIONS, lesion_scores
 from evolution.postevaluation import N_INSTRUCTIONS, late_history, read_post_evaluation
+from evolution.runs.folder import RunFolder
+from evolution.runs.history import check_array
+from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.settings import N_BEST
-from evolution.storage import DamagedFileError, make_folder
 from evolution.subtasks import AgentClass, classify
 from evolution.variance import VarianceShares, bin_times
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from arm2d import NON_EXPERIENCED, Condition
 from evolution.class_observation import CLASSES, PARTS, Observation, Sampling
 from evolution.events import WINDOWS
-from evolution.folder import RunFolder
 from evolution.lesions import LESIONS
+from evolution.runs.folder import RunFolder
 from evolution.search.randomness import Purpose, generator
 from evolution.statistics import mean_interval
 from evolution.subtasks import AgentClass

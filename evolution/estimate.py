@@ -6,8 +6,8 @@ import math
 import time
 from typing import Final
 
-from evolution.folder import GENERATIONS_PER_PART
 from evolution.plan import Plan
+from evolution.runs.folder import GENERATIONS_PER_PART
 from evolution.search.config import RunConfig
 from evolution.search.population import first_population, next_population
 from evolution.search.scoring import score_population

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from arm2d import Condition, Readings
-from evolution.folder import CONFIG, RunFolder
 from evolution.postevaluation import progress
-from evolution.storage import DamagedFileError
+from evolution.runs.folder import CONFIG, RunFolder
+from evolution.runs.storage import DamagedFileError
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from arm2d import ActionWord, Condition, ObjectWord
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.drawings import png_bytes, svg_bytes
-from evolution.history import History
+from evolution.runs.history import History
+from evolution.runs.storage import write_atomically
 from evolution.search.evaluation import Evaluation
-from evolution.storage import write_atomically
 from evolution.style import FAINT, STYLE
 
 BEST_COLOUR: Final = "#1B4F72"

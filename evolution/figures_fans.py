@@ -15,8 +15,8 @@ from evolution.behaviour import record_behaviour
 from evolution.class_observation import Sampling
 from evolution.class_results import ClassBehaviour
 from evolution.figures_behaviour import draw_alpha, draw_beta, head, trajectory_handles
-from evolution.recorded import recorded_generation
 from evolution.report_text import TITLES
+from evolution.runs.recorded import recorded_generation
 from evolution.style import FAINT, STYLE
 from evolution.subtasks import AgentClass
 

@@ -39,7 +39,7 @@ def main() -> None:
 
 def _load() -> None:
     """Compile or load all that evolution runs, by a generation of each condition."""
-    import evolution.run  # noqa: F401 - loaded for the workers
+    import evolution.runs.run  # noqa: F401 - loaded for the workers
     from arm2d import Condition
     from evolution.cli import parse
     from evolution.search.config import RunConfig

@@ -19,8 +19,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.folder import RunFolder
 from evolution.postevaluation import late_history
+from evolution.runs.folder import RunFolder
 from evolution.search.algorithm import rank as ranking
 from evolution.search.settings import N_BEST
 from evolution.statistics import sign_flip_test

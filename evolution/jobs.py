@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Protocol
 
-from evolution.folder import CHECKPOINT
+from evolution.runs.folder import CHECKPOINT
 from evolution.workers import BAD_INPUT, ColdStart, Ended, Job, Worker
 
 MOST_RESTARTS: Final = 3  # without progress

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
-from evolution.folder import RunFolder
-from evolution.history import History
-from evolution.recorded import recorded_history
-from evolution.replay import ContradictionError, replay
+from evolution.runs.folder import RunFolder
+from evolution.runs.history import History
+from evolution.runs.recorded import recorded_history
+from evolution.runs.replay import ContradictionError, replay
 from evolution.search.algorithm import rank as ranking
 from evolution.search.population import first_population
 

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED
-from evolution.folder import RunFolder
 from evolution.postevaluation import N_INSTRUCTIONS
 from evolution.results import ConditionResults
+from evolution.runs.folder import RunFolder
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Readings
-from evolution.folder import CONFIG, RunFolder, refuse_other
-from evolution.lock import RunInUseError, locked
+from evolution.runs.folder import CONFIG, RunFolder, refuse_other
+from evolution.runs.lock import RunInUseError, locked
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.standing import Pace, Standing, pace_of, standing_of

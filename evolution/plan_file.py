@@ -14,10 +14,10 @@ import tomli_w
 
 from arm2d import Condition, Readings
 from evolution.plan import Plan
+from evolution.runs.storage import make_folder, write_atomically
 from evolution.search.config import FORMAT, RunConfig
 from evolution.search.settings import Settings
 from evolution.search.toml import read_toml
-from evolution.storage import make_folder, write_atomically
 from evolution.variants import check_name
 
 FILE: Final = "plan.toml"

@@ -10,12 +10,12 @@ from dataclasses import replace
 
 from rich.console import Console
 
-from evolution.folder import RunFolder
-from evolution.interrupt import StopRequest
 from evolution.jobs import Failure, Start, Watcher, run_jobs
 from evolution.live_table import shown_table
 from evolution.plan import LOGS, Plan, in_use
 from evolution.plan_file import write_plan
+from evolution.runs.folder import RunFolder
+from evolution.runs.interrupt import StopRequest
 from evolution.search.config import RunConfig
 from evolution.stage_times import note_time
 from evolution.standing import Pace, Standing, pace_of

@@ -18,13 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import draw_trials, run_trials
-from evolution.folder import RunFolder
-from evolution.history import History, check_array, check_range
+from evolution.runs.folder import RunFolder
+from evolution.runs.history import History, check_array, check_range
+from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
 from evolution.search.randomness import Purpose, generator
 from evolution.search.settings import N_BEST
-from evolution.storage import make_folder
 
 FOLDER: Final = "postevaluation"
 N_INSTRUCTIONS: Final = 9

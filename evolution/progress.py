@@ -10,7 +10,7 @@ from typing import Final
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from evolution.run import Progress as Scored
+from evolution.runs.run import Progress as Scored
 
 # Seconds between two plain lines, and between two redrawings of the live one.
 PLAIN_INTERVAL: Final = 10.0

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Literal
 
 from arm2d import Instruction, TrialRecord, draw_trials, record_trial
+from evolution.runs.sources import Source
 from evolution.search.randomness import Purpose, generator
-from evolution.sources import Source
 
 
 def record_instruction(

@@ -14,7 +14,7 @@ import numpy as np
 from arm2d import TrialRecord
 from evolution.notable import Agent
 from evolution.recording import record_instruction
-from evolution.sources import find_source
+from evolution.runs.sources import find_source
 
 AREAS: Final = ("right", "left")
 TRIAL_SEED: Final = 0

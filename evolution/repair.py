@@ -6,15 +6,15 @@ from collections.abc import Callable
 from pathlib import Path
 
 from evolution import postevaluation, solving, transition_test
-from evolution.champion import keep_champions
-from evolution.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
-from evolution.folder import CHAMPIONS, RunFolder
-from evolution.history import HistoryBuilder
-from evolution.lock import locked
-from evolution.replay import replay
+from evolution.runs.champion import keep_champions
+from evolution.runs.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
+from evolution.runs.folder import CHAMPIONS, RunFolder
+from evolution.runs.history import HistoryBuilder
+from evolution.runs.lock import locked
+from evolution.runs.replay import replay
+from evolution.runs.storage import DamagedFileError
 from evolution.search.population import Population, first_population, next_population
 from evolution.search.scoring import score_population
-from evolution.storage import DamagedFileError
 
 Tell = Callable[[str], None]
 

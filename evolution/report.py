@@ -34,9 +34,9 @@ from evolution.report_sentences import result_sentences, standing_of_best
 from evolution.report_tables import category_tables, comparison_rows, departures_in_size, run_rows
 from evolution.report_text import TITLES
 from evolution.results import ConditionResults, Results
+from evolution.runs.storage import make_folder, write_atomically
 from evolution.stage_times import stage_times
 from evolution.standing import standing_of
-from evolution.storage import make_folder, write_atomically
 from evolution.subtasks import SUBTASKS, AgentClass
 
 TEMPLATE: Final = "report_template.html"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import fields
 
 from arm2d import Readings
-from evolution import meta
-from evolution.folder import META
 from evolution.results import Results
+from evolution.runs import meta
+from evolution.runs.folder import META
 
 
 def settings_rows(results: Results) -> list[tuple[str, str]]:

@@ -20,7 +20,7 @@ from evolution.result_rows import (
     transition_rows,
 )
 from evolution.results import ConditionResults, Results
-from evolution.storage import make_folder, write_arrays, write_atomically
+from evolution.runs.storage import make_folder, write_arrays, write_atomically
 
 
 def write_results(results: Results, folder: Path) -> list[Path]:

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from arm2d import Condition
 from evolution.experiment import Experiment
-from evolution.folder import RunFolder
 from evolution.generalisers import Generalisers
+from evolution.runs.folder import RunFolder
 from evolution.search.settings import N_BEST
 from evolution.statistics import Comparison
 from evolution.subtasks import SUBTASKS, AgentClass

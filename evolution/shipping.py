@@ -16,9 +16,9 @@ import numpy as np
 from arm2d import Condition
 from evolution.notable import Agent, best_agent, best_specialist
 from evolution.postevaluation import TRIALS
-from evolution.recorded import recorded_generation
 from evolution.results import Results
-from evolution.storage import make_folder, write_arrays
+from evolution.runs.recorded import recorded_generation
+from evolution.runs.storage import make_folder, write_arrays
 
 
 def notable_agents(results: Results) -> dict[str, Agent]:

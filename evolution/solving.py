@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import run_trials
-from evolution.folder import RunFolder
-from evolution.history import check_array, check_range
 from evolution.postevaluation import FOLDER
-from evolution.recorded import recorded_histories
+from evolution.runs.folder import RunFolder
+from evolution.runs.history import check_array, check_range
+from evolution.runs.recorded import recorded_histories
+from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
 from evolution.search.randomness import Purpose, generator
 from evolution.search.scoring import draw_evolution_trials
-from evolution.storage import make_folder
 
 FILE: Final = "solved.npz"
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from evolution.experiment import open_experiment
-from evolution.folder import CONFIG, RunFolder
 from evolution.plan import Plan
 from evolution.plan_file import read_plan
+from evolution.runs.folder import CONFIG, RunFolder
 from evolution.standing import Standing, standing_of
 
 # One run; an experiment; an experiment with variants.

@@ -9,8 +9,8 @@ from typing import Any
 
 from rich.table import Table
 
+from evolution.runs.sources import Source
 from evolution.search.evaluation import Evaluation
-from evolution.sources import Source
 
 
 def rows_of(evaluation: Evaluation, agent: int = 0) -> list[dict[str, Any]]:

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evolution.experiment import state_of
-from evolution.folder import RunFolder
-from evolution.history import History
 from evolution.postevaluation import PostEvaluation, read_post_evaluation
-from evolution.recorded import recorded_histories
+from evolution.runs.folder import RunFolder
+from evolution.runs.history import History
+from evolution.runs.recorded import recorded_histories
 from evolution.search.config import RunConfig
 from evolution.solving import solved_trials
 from evolution.transition_test import TransitionTest, read_transition_test

@@ -13,16 +13,16 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.champion import LAST_GENERATIONS, champion_arrays
-from evolution.checkpoint import Checkpoint, load_checkpoint
-from evolution.folder import CHAMPIONS, CHECKPOINT, RunFolder
-from evolution.history import History, HistoryBuilder
-from evolution.run import Progress
+from evolution.runs.champion import LAST_GENERATIONS, champion_arrays
+from evolution.runs.checkpoint import Checkpoint, load_checkpoint
+from evolution.runs.folder import CHAMPIONS, CHECKPOINT, RunFolder
+from evolution.runs.history import History, HistoryBuilder
+from evolution.runs.run import Progress
+from evolution.runs.storage import DamagedFileError
 from evolution.search.algorithm import mean_in_order
 from evolution.search.config import RunConfig
 from evolution.search.population import Population, first_population, next_population
 from evolution.search.scoring import score_population
-from evolution.storage import DamagedFileError
 
 
 @dataclass

@@ -17,7 +17,7 @@ from types import TracebackType
 from typing import Any
 
 from evolution.fork_server import LARGEST_MESSAGE
-from evolution.storage import make_folder
+from evolution.runs.storage import make_folder
 from evolution.workers import LOST, Ended, Job, Worker
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from evolution.storage import make_folder
+from evolution.runs.storage import make_folder
 
 BAD_INPUT: Final = 2
 # The exit code of a process whose end nobody saw: its files tell how far it came.

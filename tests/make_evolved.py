@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from arm2d import Condition
-from evolution.folder import RunFolder
-from evolution.recorded import recorded_history
-from evolution.run import evolve
+from evolution.runs.folder import RunFolder
+from evolution.runs.recorded import recorded_history
+from evolution.runs.run import evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 

@@ -11,7 +11,7 @@ from arm2d import Readings
 from arm2d.readings import choices
 from evolution.cli import main, parse
 from evolution.commands.evolve import Evolve
-from evolution.folder import RunFolder
+from evolution.runs.folder import RunFolder
 
 SMALL = ["--population=10", "--elites=2", "--parents=5"]
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from arm2d import Condition
+from evolution.runs.sources import SHIPPED, find_source
 from evolution.search.evaluation import evaluate
-from evolution.sources import SHIPPED, find_source
 from evolution.statistics import wilcoxon_as_published
 from evolution.subtasks import categories, count_table
 

@@ -17,7 +17,7 @@ from distributed.versions import VersionMismatchWarning
 
 from evolution.cluster.agreement import Order, disagreement, fingerprint
 from evolution.cluster.tasks import perform, stop_jobs
-from evolution.storage import make_folder
+from evolution.runs.storage import make_folder
 from evolution.workers import Job
 
 ANSWER_TIME: Final = 10.0  # [s] for a scheduler to answer

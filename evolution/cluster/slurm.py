@@ -19,7 +19,7 @@ from distributed import Client
 from distributed.security import Security
 
 from evolution.cluster.connection import Connection
-from evolution.storage import make_folder
+from evolution.runs.storage import make_folder
 
 # What a run holds at most, and a worker that watches over runs [MB], with room to spare; see docs/cluster.md.
 MEMORY_OF_A_RUN: Final = 300

@@ -10,7 +10,7 @@ from tyro.conf import Positional, arg
 from arm2d import Condition
 
 if TYPE_CHECKING:
-    from evolution.sources import Source
+    from evolution.runs.sources import Source
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class AgentCommand:
 
     def find_agent(self) -> Source:
         """The agent's genotype and its world."""
-        from evolution.sources import find_source
+        from evolution.runs.sources import find_source
 
         condition = None if self.condition is None else Condition.parse(self.condition)
         return find_source(self.source, generation=self.generation, rank=self.rank, condition=condition)

@@ -76,7 +76,7 @@ class Agree:
 
 def find_agent(name: str) -> Agent:
     """An agent, by what the user calls it."""
-    from evolution.sources import find_source
+    from evolution.runs.sources import find_source
     from mujoco_port.agreement import Agent
 
     source = find_source(name)

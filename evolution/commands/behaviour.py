@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from evolution.behaviour import Behaviour
     from evolution.lesions import LesionScores
-    from evolution.sources import Source
+    from evolution.runs.sources import Source
     from evolution.variance import VarianceShares
 
 
@@ -66,7 +66,7 @@ def _write(
     from evolution.figures_behaviour import lesions_figure, trajectories_figure
     from evolution.figures_neurons import activity_figure, variance_figure
     from evolution.figures_states import state_space_figure
-    from evolution.storage import make_folder, write_arrays
+    from evolution.runs.storage import make_folder, write_arrays
 
     make_folder(output)
     origin = source.origin

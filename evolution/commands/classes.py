@@ -50,7 +50,7 @@ class Classes:
         from evolution.class_files import behaviours_of, write_classes
         from evolution.class_observation import Sampling, observe
         from evolution.experiment import open_experiment
-        from evolution.lock import locked
+        from evolution.runs.lock import locked
         from evolution.tested_runs import name_of, unfinished
 
         sampling, console = Sampling(self.agents, self.trials_per_area, self.trial_seed), Console()

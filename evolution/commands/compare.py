@@ -34,7 +34,7 @@ class Compare:
         from evolution.figures_compare import compare_figure
         from evolution.key_numbers import comparison_rows, departures
         from evolution.result_rows import to_csv
-        from evolution.storage import make_folder, write_atomically
+        from evolution.runs.storage import make_folder, write_atomically
 
         console = Console(soft_wrap=True, highlight=False)
         found = {name: open_experiment(path) for name, path in _named(self.experiments).items()}

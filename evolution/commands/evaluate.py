@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from evolution.commands.agent import AgentCommand
 
 if TYPE_CHECKING:
+    from evolution.runs.sources import Source
     from evolution.search.evaluation import Evaluation
-    from evolution.sources import Source
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class Evaluate(AgentCommand):
 def _write(source: Source, result: Evaluation, folder: Path) -> list[Path]:
     """Write figures and tables; their paths."""
     from evolution.figures import heat_map, save_figure
-    from evolution.storage import make_folder, write_atomically
+    from evolution.runs.storage import make_folder, write_atomically
     from evolution.tables import to_csv, to_json
 
     make_folder(folder)

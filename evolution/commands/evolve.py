@@ -65,9 +65,9 @@ class Evolve:
         """Evolve; the exit code is 130 if the run was stopped before its end."""
         from rich.console import Console
 
-        from evolution.interrupt import StopRequest
         from evolution.progress import shown_progress
-        from evolution.run import Watcher, evolve
+        from evolution.runs.interrupt import StopRequest
+        from evolution.runs.run import Watcher, evolve
 
         config = self.config
         path = self.output or default_folder(self.experiment, config)

@@ -51,10 +51,10 @@ class ExperimentCommand:
         """Evolve; the exit code is 130 if it was stopped, 2 if a run was given up."""
         from rich.console import Console
 
-        from evolution.interrupt import StopRequest
-        from evolution.lock import locked
         from evolution.plan_runner import processes, run_plan_shown
-        from evolution.storage import make_folder
+        from evolution.runs.interrupt import StopRequest
+        from evolution.runs.lock import locked
+        from evolution.runs.storage import make_folder
 
         spec = self.spec
         self.cluster.check()

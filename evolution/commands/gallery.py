@@ -34,7 +34,7 @@ class Gallery(AgentCommand):
     def run(self) -> int:
         """Record the trials and let the humanoid follow them, or carry them out."""
         from evolution.recording import record_instruction
-        from evolution.storage import make_folder
+        from evolution.runs.storage import make_folder
         from models.robots import get_robot
         from mujoco_port.physical_port import check_acts, port_physical_gallery
         from mujoco_port.port import port_gallery

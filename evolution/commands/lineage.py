@@ -11,9 +11,9 @@ from tyro.conf import Positional, arg
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from evolution.folder import RunFolder
     from evolution.lineage import Lineage
     from evolution.lineage_scores import LineageScores
+    from evolution.runs.folder import RunFolder
 
 
 @dataclass(frozen=True)
@@ -43,9 +43,9 @@ class LineageCommand:
         from rich.console import Console
         from rich.progress import Progress
 
-        from evolution.folder import RunFolder
         from evolution.lineage import trace_lineage
         from evolution.lineage_scores import score_lineage
+        from evolution.runs.folder import RunFolder
 
         folder = RunFolder.open(self.folder)
         if self.trials_per_area < 1:
@@ -74,7 +74,7 @@ def _write(folder: RunFolder, lineage: Lineage, scores: LineageScores, rank: int
     from evolution.figures import save_figure
     from evolution.figures_lineage import lineage_figure
     from evolution.innovations import lineage_arrays
-    from evolution.storage import make_folder, write_arrays
+    from evolution.runs.storage import make_folder, write_arrays
 
     make_folder(output)
     generation = len(lineage) - 1

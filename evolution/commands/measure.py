@@ -20,8 +20,8 @@ class Measure:
 
     def run(self) -> int:
         """Measure, keep what was simulated beside the run, and print."""
-        from evolution.folder import RunFolder
-        from evolution.lock import locked
+        from evolution.runs.folder import RunFolder
+        from evolution.runs.lock import locked
         from evolution.study.measures import measure
         from evolution.subtasks import SUBTASKS
 

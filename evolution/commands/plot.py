@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from tyro.conf import Positional, arg
 
 if TYPE_CHECKING:
-    from evolution.folder import RunFolder
+    from evolution.runs.folder import RunFolder
 
 
 @dataclass(frozen=True)
@@ -24,8 +24,8 @@ class Plot:
 
     def run(self) -> int:
         """Draw what is recorded so far."""
-        from evolution.folder import RunFolder
-        from evolution.storage import make_folder
+        from evolution.runs.folder import RunFolder
+        from evolution.runs.storage import make_folder
 
         run_folder = RunFolder.open(self.folder)
         output = self.output or self.folder / "evaluation"
@@ -38,7 +38,7 @@ class Plot:
 def write_fitness_curve(run_folder: RunFolder, output: Path) -> list[Path]:
     """Write fitness.png and fitness.svg; their paths."""
     from evolution.figures import fitness_curve, save_figure
-    from evolution.recorded import recorded_history
+    from evolution.runs.recorded import recorded_history
 
     history = recorded_history(run_folder)
     config = run_folder.config

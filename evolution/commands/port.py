@@ -48,7 +48,7 @@ class Port(AgentCommand):
         instruction = Instruction.parse(self.instruction)
 
         from evolution.recording import record_instruction
-        from evolution.storage import make_folder
+        from evolution.runs.storage import make_folder
         from models.robots import get_robot
         from mujoco_port.physical_port import check_acts, port_physical_trial
         from mujoco_port.port import port_trial

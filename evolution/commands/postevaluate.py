@@ -23,8 +23,8 @@ class PostEvaluate:
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
         from evolution.experiment import open_experiment, state_of
-        from evolution.lock import locked
         from evolution.postevaluation import post_evaluate
+        from evolution.runs.lock import locked
         from evolution.solving import solved_trials
         from evolution.transition_test import run_transition_test
 

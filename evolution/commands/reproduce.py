@@ -16,10 +16,10 @@ from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
 if TYPE_CHECKING:
-    from evolution.interrupt import StopRequest
     from evolution.jobs import Failure
     from evolution.plan import Plan
     from evolution.results import Results
+    from evolution.runs.interrupt import StopRequest
 
 MOST_RUNS: Final = 10_000
 BAD_INPUT: Final = 2
@@ -72,10 +72,10 @@ class Reproduce:
         """Reproduce; the exit code is 130 if it was stopped, 2 if a job was given up."""
         from rich.console import Console
 
-        from evolution.interrupt import StopRequest
-        from evolution.lock import locked
         from evolution.plan_runner import processes, run_plan_shown
-        from evolution.storage import make_folder
+        from evolution.runs.interrupt import StopRequest
+        from evolution.runs.lock import locked
+        from evolution.runs.storage import make_folder
 
         at_once = processes(self.jobs)
         self.cluster.check()

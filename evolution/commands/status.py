@@ -26,8 +26,8 @@ class Status:
         """Read and print once."""
         from rich.console import Console
 
-        from evolution.folder import RunFolder
         from evolution.live_table import run_table
+        from evolution.runs.folder import RunFolder
         from evolution.standing import pace_of
         from evolution.status import experiment_standings
 

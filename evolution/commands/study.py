@@ -10,9 +10,9 @@ from tyro.conf import Positional
 
 if TYPE_CHECKING:
     from arm2d import Readings
-    from evolution.interrupt import StopRequest
     from evolution.jobs import Failure
     from evolution.plan import Plan
+    from evolution.runs.interrupt import StopRequest
     from evolution.study.variants import Part
 
 BAD_INPUT: Final = 2
@@ -56,10 +56,10 @@ class StudyCommand:
 
     def run(self) -> int:
         """Study; the exit code is 130 if it was stopped, 2 if a run was given up or nothing is measured."""
-        from evolution.interrupt import StopRequest
-        from evolution.lock import locked
         from evolution.plan_runner import processes
-        from evolution.storage import make_folder
+        from evolution.runs.interrupt import StopRequest
+        from evolution.runs.lock import locked
+        from evolution.runs.storage import make_folder
 
         part, at_once = self._part(), processes(self.jobs)
         plan = _plan(part, self.output)

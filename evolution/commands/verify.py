@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 from tyro.conf import Positional, arg
 
 if TYPE_CHECKING:
-    from evolution.folder import RunFolder
+    from evolution.runs.folder import RunFolder
     from evolution.verify import Findings
 
 DIFFERS: Final = 1
@@ -39,8 +39,8 @@ class Verify:
         """Compare and print the verdict."""
         from rich.console import Console
 
-        from evolution.folder import RunFolder
         from evolution.progress import shown_progress
+        from evolution.runs.folder import RunFolder
         from evolution.verify import reached, verify
 
         folder = RunFolder.open(self.run_folder)

@@ -52,7 +52,7 @@ class Workspace:
 
     def _certify(self, robot: Robot) -> int:
         from evolution.figures import save_figure
-        from evolution.storage import make_folder, write_arrays
+        from evolution.runs.storage import make_folder, write_arrays
         from mujoco_port.certificate import certify
         from mujoco_port.certificate_figure import draw_certificate
 

@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 
 from arm2d import draw_trials, run_trials
 from evolution.analysis import PLATEAU_SHARE
-from evolution.folder import RunFolder
-from evolution.history import History, check_array
 from evolution.postevaluation import N_INSTRUCTIONS, best_genotypes, late_spans
 from evolution.results import FITNESS_LIMIT, PLATEAU_TOLERANCE
+from evolution.runs.folder import RunFolder
+from evolution.runs.history import History, check_array
+from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
 from evolution.search.randomness import Purpose, generator
 from evolution.search.settings import N_BEST
 from evolution.solving import solved_trials
-from evolution.storage import DamagedFileError, make_folder
 from evolution.subtasks import AgentClass, categories, classify
 
 FILE: Final = Path("measures") / "late.npz"

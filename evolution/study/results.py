@@ -10,13 +10,13 @@ from typing import Final
 from arm2d import Condition
 from evolution.figures import save_figure
 from evolution.figures_paper import TITLES
-from evolution.folder import RunFolder
-from evolution.interrupt import StopRequest
 from evolution.jobs import Failure, Watcher, run_jobs
 from evolution.plan import LOGS, Plan
 from evolution.result_files import to_csv
+from evolution.runs.folder import RunFolder
+from evolution.runs.interrupt import StopRequest
+from evolution.runs.storage import make_folder, write_atomically
 from evolution.standing import Standing
-from evolution.storage import make_folder, write_atomically
 from evolution.study.effects import effect_rows
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import is_measured, measure

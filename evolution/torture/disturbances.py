@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Final
 
-from evolution.folder import CHAMPIONS, CHECKPOINT, RunFolder
 from evolution.repair import repair
+from evolution.runs.folder import CHAMPIONS, CHECKPOINT, RunFolder
 from evolution.torture.killing import BAD_INPUT, TortureError
 from evolution.torture.stages import stage_of, temporaries
 from evolution.torture.tally import Tally

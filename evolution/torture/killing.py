@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from evolution.storage import make_folder
+from evolution.runs.storage import make_folder
 from evolution.torture.stages import RUN_FOLDERS, SHARES, Schedule, is_temporary, stage_of, temporaries
 from evolution.torture.tally import ORPHAN, PARENT, STARTER, WORKER, Tally
 from evolution.torture.victims import holder_of, kill, members, names, session_of, starts_workers

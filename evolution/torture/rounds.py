@@ -13,9 +13,9 @@ from typing import Final
 
 from arm2d import Condition
 from evolution.plan import Plan, evolve_arguments
+from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.storage import make_folder
 from evolution.torture.disturbances import (
     damage_and_repair,
     refuse_where_files_cannot_grow,

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from evolution import postevaluation, solving, transition_test
-from evolution.folder import CHAMPIONS, CHECKPOINT, CONFIG, META, PARTS
+from evolution.runs.folder import CHAMPIONS, CHECKPOINT, CONFIG, META, PARTS
 
 # What is written, and the share of its writes at which somebody is killed. What comes seldom is hit more
 # often; what is written at every start, or a dozen times by one process, less: else nothing would get on.

@@ -13,7 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
-from evolution.folder import LOCK
+from evolution.runs.folder import LOCK
 
 PROCESSES: Final = Path("/proc")
 LONGEST_NUMBER: Final = 20

@@ -3,7 +3,7 @@ import shutil
 import pytest
 from small_runs import SMALL
 
-from evolution.run import evolve
+from evolution.runs.run import evolve
 
 
 @pytest.fixture(scope="session")

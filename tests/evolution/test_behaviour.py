@@ -17,7 +17,7 @@ from evolution.events import events_of, shares_by_event
 from evolution.figures_behaviour import trajectories_figure
 from evolution.figures_neurons import activity_figure, variance_figure
 from evolution.figures_states import principal_plane, state_space_figure
-from evolution.storage import read_arrays
+from evolution.runs.storage import read_arrays
 
 INDICATE = Condition.WITH_INDICATE
 READINGS = Readings()

@@ -2,10 +2,10 @@ import numpy as np
 from small_runs import SMALL
 
 from arm2d import NON_EXPERIENCED
-from evolution import champion
-from evolution.champion import Candidates, choose_champions, find_candidates
-from evolution.folder import CHAMPIONS, RunFolder
-from evolution.recorded import recorded_history
+from evolution.runs import champion
+from evolution.runs.champion import Candidates, choose_champions, find_candidates
+from evolution.runs.folder import CHAMPIONS, RunFolder
+from evolution.runs.recorded import recorded_history
 from evolution.search import scoring
 from evolution.search.evaluation import evaluate
 

@@ -12,10 +12,10 @@ from evolution.class_files import behaviours_of, class_figures, write_classes
 from evolution.class_observation import CLASSES, Observation, Sampling, choose, observation_path, observe
 from evolution.class_results import class_behaviours, measures
 from evolution.cli import main
-from evolution.folder import RunFolder
 from evolution.lesions import lesion_scores
 from evolution.postevaluation import late_history, post_evaluate
-from evolution.storage import DamagedFileError
+from evolution.runs.folder import RunFolder
+from evolution.runs.storage import DamagedFileError
 from evolution.subtasks import AgentClass
 
 INDICATE = Condition.WITH_INDICATE

@@ -14,8 +14,8 @@ from evolution.cluster import connection
 from evolution.cluster.address import connected
 from evolution.cluster.agreement import Order, disagreement, fingerprint
 from evolution.cluster.running import run_jobs_on
-from evolution.folder import LOCK
 from evolution.jobs import Watcher
+from evolution.runs.folder import LOCK
 from evolution.standing import is_held
 from evolution.workers import Job
 

@@ -13,10 +13,10 @@ from evolution.analysis import analyse
 from evolution.cli import main
 from evolution.experiment import open_experiment
 from evolution.figures_compare import compare_figure
-from evolution.folder import RunFolder
 from evolution.key_numbers import AT_LIMIT, PLATEAU, by_condition, departures, key_numbers, top_name
 from evolution.postevaluation import post_evaluate
-from evolution.run import evolve
+from evolution.runs.folder import RunFolder
+from evolution.runs.run import evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.transition_test import run_transition_test

@@ -17,7 +17,7 @@ from evolution.cli import main
 from evolution.live_table import plain_lines, run_table
 from evolution.plan import Plan
 from evolution.plan_runner import PlanWatch
-from evolution.run import evolve
+from evolution.runs.run import evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.standing import Pace, Standing

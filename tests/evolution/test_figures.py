@@ -16,8 +16,8 @@ from evolution.figures import (
     running_median,
     save_figure,
 )
-from evolution.folder import RunFolder
-from evolution.recorded import recorded_history
+from evolution.runs.folder import RunFolder
+from evolution.runs.recorded import recorded_history
 from evolution.search.evaluation import evaluate
 
 

@@ -5,7 +5,6 @@ import pytest
 from matplotlib.figure import Figure
 
 from evolution.figures_generalisers import draw_density, draw_marks
-from evolution.folder import RunFolder
 from evolution.generalisers import (
     generalisers_of,
     longest_line,
@@ -13,7 +12,8 @@ from evolution.generalisers import (
     spell_lengths,
 )
 from evolution.postevaluation import late_spans
-from evolution.recorded import recorded_history
+from evolution.runs.folder import RunFolder
+from evolution.runs.recorded import recorded_history
 from evolution.search.algorithm import rank
 from evolution.statistics import sign_flip_test
 

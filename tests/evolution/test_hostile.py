@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from arm2d import Instruction, Readings
-from evolution.arrays import UnreadableError, unpack_archive, unpack_array
 from evolution.grid import experiment_from_mapping
+from evolution.runs.arrays import UnreadableError, unpack_archive, unpack_array
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.search.toml import DEEPEST, read_toml

@@ -8,8 +8,8 @@ import pytest
 from small_runs import SMALL_FLAGS, contents
 
 from evolution import workers
-from evolution.folder import LOCK
 from evolution.jobs import MOST_RESTARTS, Watcher, finished_files, run_jobs
+from evolution.runs.folder import LOCK
 from evolution.workers import Job
 
 

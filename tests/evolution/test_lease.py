@@ -12,11 +12,11 @@ from dataclasses import asdict
 
 import pytest
 
-from evolution import lease, lock
 from evolution.cli import main
-from evolution.folder import LEASE
-from evolution.lease import EXIT_CODE, LAPSE, Holder, RunInUseError, leased
-from evolution.lock import locked
+from evolution.runs import lease, lock
+from evolution.runs.folder import LEASE
+from evolution.runs.lease import EXIT_CODE, LAPSE, Holder, RunInUseError, leased
+from evolution.runs.lock import locked
 from evolution.standing import is_held
 
 ELSEWHERE = Holder(process=7, host="node12", kernel="another kernel", token="one")
@@ -70,7 +70,7 @@ def test_a_lease_that_cannot_be_read_is_waited_for_like_any_other(content, tmp_p
 def holder_process(folder, renewal=15.0):
     """A real process that holds a folder, and has said so."""
     code = (
-        "import sys, time; from pathlib import Path; from evolution import lease; from evolution.lock import "
+        "import sys, time; from pathlib import Path; from evolution import lease; from evolution.runs.lock import "
         f"locked\nlease.RENEWAL = {renewal}\nwith locked(Path(sys.argv[1])):\n"
         "    print('held', flush=True); time.sleep(60)"
     )

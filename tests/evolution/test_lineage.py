@@ -4,15 +4,15 @@ import pytest
 from arm2d import Condition, Readings, draw_trials, record_trial
 from evolution.cli import main
 from evolution.figures_lineage import lineage_figure
-from evolution.folder import RunFolder
 from evolution.innovations import innovations, lineage_arrays
 from evolution.lineage import ancestor_indices, trace_lineage
 from evolution.lineage_scores import Skills, longest_bent_stay, offsets, score_lineage
-from evolution.recorded import recorded_history
-from evolution.replay import population_at
+from evolution.runs.folder import RunFolder
+from evolution.runs.recorded import recorded_history
+from evolution.runs.replay import population_at
+from evolution.runs.storage import DamagedFileError, read_arrays, write_arrays
 from evolution.search.algorithm import rank as ranking
 from evolution.search.evaluation import evaluate
-from evolution.storage import DamagedFileError, read_arrays, write_arrays
 
 
 @pytest.fixture(scope="module")

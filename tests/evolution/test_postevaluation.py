@@ -11,7 +11,6 @@ from evolution.analysis import analyse
 from evolution.cli import main, parse
 from evolution.experiment import open_experiment
 from evolution.figures_paper import all_figures
-from evolution.folder import RunFolder
 from evolution.postevaluation import (
     evaluate_agents,
     late_spans,
@@ -20,13 +19,14 @@ from evolution.postevaluation import (
     read_post_evaluation,
 )
 from evolution.repair import repair
-from evolution.run import evolve
+from evolution.runs.folder import RunFolder
+from evolution.runs.run import evolve
+from evolution.runs.sources import find_source
+from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.shipping import notable_agents, ship
 from evolution.solving import solved_trials
-from evolution.sources import find_source
-from evolution.storage import DamagedFileError
 from evolution.transition_test import run_transition_test
 
 SETTINGS = Settings(population=12, elites=2, parents=6, generations=9)

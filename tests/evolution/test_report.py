@@ -23,7 +23,7 @@ from evolution.report_figures import file_uri
 from evolution.report_sentences import result_sentences
 from evolution.report_tables import comparison_rows, run_rows
 from evolution.report_text import p_value, percent
-from evolution.run import evolve
+from evolution.runs.run import evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.solving import solved_trials

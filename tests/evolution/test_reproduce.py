@@ -13,8 +13,8 @@ import pytest
 from arm2d import Condition, Readings
 from evolution.cli import main, parse
 from evolution.live_table import duration, plain_lines
-from evolution.lock import locked
 from evolution.plan import Plan, evolve_arguments, in_use
+from evolution.runs.lock import locked
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.stage_times import FILE, stage_times

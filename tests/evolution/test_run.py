@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from small_runs import SMALL, contents
 
-from evolution import meta
-from evolution.folder import RunFolder
-from evolution.lock import locked
-from evolution.recorded import recorded_generation, recorded_history
-from evolution.replay import population_at
-from evolution.run import Watcher, evolve
+from evolution.runs import meta
+from evolution.runs.folder import RunFolder
+from evolution.runs.lock import locked
+from evolution.runs.recorded import recorded_generation, recorded_history
+from evolution.runs.replay import population_at
+from evolution.runs.run import Watcher, evolve
 from evolution.search.population import first_population, next_population
 from evolution.search.scoring import score_population
 from evolution.search.settings import Settings
@@ -140,7 +140,7 @@ def test_asking_for_the_revision_leaves_the_index_alone(tmp_path):
     index = tmp_path / ".git" / "index"
     before = index.stat().st_mtime_ns, index.stat().st_ino
     os.utime(package / "run.py", (1, 1))  # git would note in the index that it is unchanged all the same
-    code = "from evolution.meta import revision; print(revision())"
+    code = "from evolution.runs.meta import revision; print(revision())"
     environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
     asked = [sys.executable, "-c", code]
 

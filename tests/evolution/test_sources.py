@@ -7,12 +7,12 @@ from hypothesis import strategies as st
 from small_runs import SMALL
 
 from arm2d import Condition, Readings
-from evolution import arrays, genotype_files, sources
-from evolution.folder import RunFolder
-from evolution.recorded import recorded_generation, recorded_history
-from evolution.replay import population_at
-from evolution.run import Watcher, evolve
-from evolution.sources import find_source
+from evolution.runs import arrays, genotype_files, sources
+from evolution.runs.folder import RunFolder
+from evolution.runs.recorded import recorded_generation, recorded_history
+from evolution.runs.replay import population_at
+from evolution.runs.run import Watcher, evolve
+from evolution.runs.sources import find_source
 
 GENOTYPES = np.random.default_rng(0).random((3, 84))
 

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evolution import storage
-from evolution.storage import DamagedFileError, pack_arrays, read_arrays, write_arrays, write_atomically
+from evolution.runs import storage
+from evolution.runs.storage import DamagedFileError, pack_arrays, read_arrays, write_arrays, write_atomically
 
 ARRAYS = {
     "name": np.array("seed 7"),

@@ -11,15 +11,15 @@ import pytest
 from arm2d import Condition, Readings
 from arm2d.readings import choices
 from evolution.cli import main
-from evolution.folder import RunFolder
 from evolution.postevaluation import post_evaluate
-from evolution.recorded import recorded_history
 from evolution.result_files import to_csv
-from evolution.run import evolve
+from evolution.runs.folder import RunFolder
+from evolution.runs.recorded import recorded_history
+from evolution.runs.run import evolve
+from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.solving import solved_trials
-from evolution.storage import DamagedFileError
 from evolution.study.effects import effect_rows, effects, holm
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import FILE, measure

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from evolution.folder import RunFolder
+from evolution.runs.folder import RunFolder
 from evolution.torture.disturbances import DAMAGES, _must_be_refused, damage_and_repair
 from evolution.torture.killing import TortureError, _unfinished
 from evolution.torture.rounds import _compare

@@ -7,9 +7,9 @@ import pytest
 from small_runs import SMALL
 
 from evolution.cli import main
-from evolution.folder import RunFolder
-from evolution.lock import locked
-from evolution.run import Watcher, evolve
+from evolution.runs.folder import RunFolder
+from evolution.runs.lock import locked
+from evolution.runs.run import Watcher, evolve
 
 HOW = "parents, best genotypes and champions compared in all\n"
 

@@ -11,7 +11,7 @@ from functools import cache
 
 import numpy as np
 
-from evolution.storage import DIGEST_LENGTH, pack_arrays
+from evolution.runs.storage import DIGEST_LENGTH, pack_arrays
 
 HOSTILE_TEXTS = (
     "", " ", "\n", "\0", "\x1b[31m", "../../escape", "/etc/passwd", "~", "-", "--", "nan", "inf", "-1",

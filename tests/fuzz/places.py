@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from evolution.folder import RunFolder
 from evolution.plan import Plan
 from evolution.postevaluation import post_evaluate
-from evolution.run import Watcher, evolve
+from evolution.runs.folder import RunFolder
+from evolution.runs.run import Watcher, evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.solving import solved_trials

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from evolution.cli import main
-from evolution.storage import read_arrays
+from evolution.runs.storage import read_arrays
 from mujoco_port.certificate import MOST_TURN, STEP_DEG, certify
 from mujoco_port.clearance import Clearance
 from mujoco_port.workspace import hand_targets

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from arm2d import Instruction, Readings, draw_trials, record_trial
-from evolution.sources import find_source
+from evolution.runs.sources import find_source
 from mujoco_port.camera import CameraEyes
 from mujoco_port.closed_loop import felt
 from mujoco_port.contacts import LEFT_SIDE, RIGHT_SIDE

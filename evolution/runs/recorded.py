@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from evolution.checkpoint import load_checkpoint
-from evolution.folder import RunFolder
-from evolution.history import History
+from evolution.runs.checkpoint import load_checkpoint
+from evolution.runs.folder import RunFolder
+from evolution.runs.history import History
 
 
 def recorded_histories(folder: RunFolder) -> Iterator[History]:

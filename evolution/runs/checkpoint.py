@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
-from evolution.folder import CHECKPOINT, RunFolder
-from evolution.history import History, check_array, check_range, history_from_arrays
+from evolution.runs.folder import CHECKPOINT, RunFolder
+from evolution.runs.history import History, check_array, check_range, history_from_arrays
 from evolution.search.population import Population
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from numpy.typing import NDArray
 
-from evolution.arrays import LARGEST_CONTENT, UnreadableError, unpack_archive, unpack_array
+from evolution.runs.arrays import LARGEST_CONTENT, UnreadableError, unpack_archive, unpack_array
 
 
 def read_genotype_file(path: Path) -> Mapping[str, NDArray]:

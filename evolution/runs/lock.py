@@ -10,8 +10,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Final, TextIO
 
-from evolution.folder import LOCK
-from evolution.lease import RunInUseError, leased
+from evolution.runs.folder import LOCK
+from evolution.runs.lease import RunInUseError, leased
 
 __all__ = ["RunInUseError", "locked"]
 

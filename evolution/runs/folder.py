@@ -16,10 +16,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.history import History, history_from_arrays
+from evolution.runs.history import History, history_from_arrays
 from evolution.search.config import RunConfig
 from evolution.search.toml import read_toml_file
-from evolution.storage import (
+from evolution.runs.storage import (
     DamagedFileError,
     make_folder,
     read_arrays,

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from evolution.folder import RunFolder
-from evolution.history import History
-from evolution.recorded import recorded_histories
+from evolution.runs.folder import RunFolder
+from evolution.runs.history import History
+from evolution.runs.recorded import recorded_histories
 from evolution.search.algorithm import rank
 from evolution.search.config import RunConfig
 from evolution.search.population import Population, first_population, next_population

@@ -19,7 +19,7 @@ from typing import BinaryIO, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.arrays import LARGEST_CONTENT, UnreadableError, unpack_archive
+from evolution.runs.arrays import LARGEST_CONTENT, UnreadableError, unpack_archive
 
 # Length of a SHA-256 in hexadecimal.
 DIGEST_LENGTH: Final = 64

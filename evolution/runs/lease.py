@@ -28,7 +28,7 @@ from functools import cache
 from pathlib import Path
 from typing import Final
 
-from evolution.folder import LEASE
+from evolution.runs.folder import LEASE
 
 RENEWAL: Final = 15.0  # [s] between two touches
 LAPSE: Final = 90.0  # [s] after which others may take over

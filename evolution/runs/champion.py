@@ -23,8 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import run_trials
-from evolution.folder import CHAMPIONS, RunFolder
-from evolution.history import History
+from evolution.runs.folder import CHAMPIONS, RunFolder
+from evolution.runs.history import History
 from evolution.search.algorithm import mean_in_order
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA, evaluate

@@ -7,18 +7,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from evolution import meta
-from evolution.champion import keep_champions
-from evolution.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
-from evolution.folder import CHAMPIONS, META, RunFolder, refuse_other
-from evolution.history import HistoryBuilder
-from evolution.lock import locked
-from evolution.replay import replay_part
+from evolution.runs import meta
+from evolution.runs.champion import keep_champions
+from evolution.runs.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
+from evolution.runs.folder import CHAMPIONS, META, RunFolder, refuse_other
+from evolution.runs.history import HistoryBuilder
+from evolution.runs.lock import locked
+from evolution.runs.replay import replay_part
 from evolution.search.algorithm import mean_in_order
 from evolution.search.config import RunConfig
 from evolution.search.population import first_population, next_population
 from evolution.search.scoring import score_population
-from evolution.storage import DamagedFileError, make_folder
+from evolution.runs.storage import DamagedFileError, make_folder
 
 
 @dataclass(frozen=True)

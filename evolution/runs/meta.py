@@ -11,7 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Final
 
-from evolution.storage import write_atomically
+from evolution.runs.storage import write_atomically
 
 PACKAGES: Final = ("wordarm", "numpy", "numba", "llvmlite")
 

@@ -11,15 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, check_genotypes
-from evolution.folder import CHAMPIONS, RunFolder
-from evolution.genotype_files import read_genotype_file
-from evolution.recorded import recorded_generation, recorded_histories
-from evolution.replay import population_at
+from evolution.runs.folder import CHAMPIONS, RunFolder
+from evolution.runs.genotype_files import read_genotype_file
+from evolution.runs.recorded import recorded_generation, recorded_histories
+from evolution.runs.replay import population_at
 from evolution.search.algorithm import rank as ranking
 from evolution.search.config import RunConfig
 from evolution.search.settings import N_BEST
 
-SHIPPED: Final = Path(__file__).parent / "champions"
+SHIPPED: Final = Path(__file__).parents[1] / "champions"
 PROVENANCE: Final = ("generations", "ranks")
 
 
