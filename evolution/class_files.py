@@ -8,7 +8,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from arm2d import Condition
-from evolution.class_observation import Observation, Sampling, read_observation
+from evolution.agents.classes import Observation, Sampling, read_observation
+from evolution.agents.subtasks import AgentClass
 from evolution.class_results import ClassBehaviour, class_behaviours, class_rows, run_class_rows
 from evolution.figures import save_figure
 from evolution.figures_classes import Behaviours, classes_figure
@@ -17,7 +18,6 @@ from evolution.result_rows import to_csv
 from evolution.results import Results
 from evolution.runs.folder import RunFolder
 from evolution.runs.storage import make_folder, write_atomically
-from evolution.subtasks import AgentClass
 
 
 def behaviours_of(observed: Sequence[tuple[RunFolder, Observation]]) -> Behaviours:

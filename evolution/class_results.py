@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition
-from evolution.class_observation import CLASSES, PARTS, Observation, Sampling
-from evolution.events import WINDOWS
-from evolution.lesions import LESIONS
+from evolution.agents.classes import CLASSES, PARTS, Observation, Sampling
+from evolution.agents.events import WINDOWS
+from evolution.agents.lesions import LESIONS
+from evolution.agents.subtasks import AgentClass
 from evolution.runs.folder import RunFolder
 from evolution.search.randomness import Purpose, generator
 from evolution.statistics import mean_interval
-from evolution.subtasks import AgentClass
 
 INTACT = "intact"
 

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition
-from evolution.postevaluation import N_INSTRUCTIONS
+from evolution.agents.postevaluation import N_INSTRUCTIONS
+from evolution.agents.subtasks import SUBTASKS, AgentClass, categories, classify
 from evolution.results import ConditionResults
 from evolution.search.randomness import Purpose, generator
 from evolution.statistics import Comparison, compare, wilcoxon_as_published
-from evolution.subtasks import SUBTASKS, AgentClass, categories, classify
 
 
 def compare_conditions(

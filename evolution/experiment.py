@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from arm2d import Condition, Readings
-from evolution.postevaluation import progress
+from evolution.agents.postevaluation import progress
 from evolution.runs.folder import CONFIG, RunFolder
 from evolution.runs.storage import DamagedFileError
 

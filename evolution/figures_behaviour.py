@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from arm2d import NON_EXPERIENCED, Instruction, ObjectWord, Readings
 from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, DT
 from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.behaviour import NEVER, Behaviour
+from evolution.agents.behaviour import NEVER, Behaviour
+from evolution.agents.lesions import LESIONS, LesionScores
 from evolution.figures import SUCCESS_MAP
-from evolution.lesions import LESIONS, LesionScores
 from evolution.style import FAINT, STYLE
 
 FAILED: Final = "#A8A49B"

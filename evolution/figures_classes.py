@@ -14,15 +14,15 @@ from matplotlib.patches import Patch
 
 from arm2d import Condition
 from arm2d.drawing import INK
-from evolution.class_observation import PARTS
+from evolution.agents.classes import PARTS
+from evolution.agents.events import WINDOWS
+from evolution.agents.lesions import LESIONS
+from evolution.agents.subtasks import AgentClass
 from evolution.class_results import ClassBehaviour
-from evolution.events import WINDOWS
 from evolution.figures_generalisers import CLASS_COLOURS
 from evolution.figures_neurons import SHARE_COLOURS, SHARE_LABELS
-from evolution.lesions import LESIONS
 from evolution.report_text import TITLES
 from evolution.style import FAINT, STYLE
-from evolution.subtasks import AgentClass
 
 Behaviours = Mapping[Condition, Mapping[AgentClass, ClassBehaviour]]
 

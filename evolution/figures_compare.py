@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 
 from arm2d import Condition
 from arm2d.drawing import INK
+from evolution.agents.subtasks import SUBTASKS
 from evolution.figures_classes import SHORT
 from evolution.key_numbers import (
     AT_LIMIT,
@@ -28,7 +29,6 @@ from evolution.published import LARGEST_FITNESS
 from evolution.report_text import TITLES
 from evolution.results import Results
 from evolution.style import FAINT, STYLE
-from evolution.subtasks import SUBTASKS
 
 PAPER: Final = "#8A857A"
 OURS: Final = "#12545F"

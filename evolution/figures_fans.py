@@ -11,14 +11,14 @@ from matplotlib.figure import Figure
 
 from arm2d import Condition
 from arm2d.constants import DT
-from evolution.behaviour import record_behaviour
-from evolution.class_observation import Sampling
+from evolution.agents.behaviour import record_behaviour
+from evolution.agents.classes import Sampling
+from evolution.agents.subtasks import AgentClass
 from evolution.class_results import ClassBehaviour
 from evolution.figures_behaviour import draw_alpha, draw_beta, head, trajectory_handles
 from evolution.report_text import TITLES
 from evolution.runs.recorded import recorded_generation
 from evolution.style import FAINT, STYLE
-from evolution.subtasks import AgentClass
 
 PER_AREA: Final = 5
 ROW: Final = 1.16  # height of an instruction [in]

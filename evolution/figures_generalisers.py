@@ -17,12 +17,12 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from arm2d.drawing import INK
+from evolution.agents.subtasks import AgentClass, classify
 from evolution.generalisers import Generalisers
 from evolution.report_text import TITLES
 from evolution.results import ConditionResults, Results
 from evolution.search.settings import N_BEST
 from evolution.style import FAINT, STYLE
-from evolution.subtasks import AgentClass, classify
 
 FULL_COLOUR: Final = "#B0296F"
 PARTIAL_COLOUR: Final = "#E69F00"

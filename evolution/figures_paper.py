@@ -17,13 +17,13 @@ from matplotlib.patches import Patch
 
 from arm2d.drawing import INK
 from evolution import published
+from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS
+from evolution.agents.transitions import Transition, action_transitions, object_transitions
 from evolution.figures import running_median
 from evolution.figures_generalisers import CLASS_COLOURS, generalisers_figure
 from evolution.report_text import TITLES
 from evolution.results import ConditionResults, Results
 from evolution.style import FAINT, STYLE
-from evolution.subtasks import N_CATEGORIES, SUBTASKS
-from evolution.transitions import Transition, action_transitions, object_transitions
 
 # From pale sand (never) to deep teal (nearly always), lightness falling evenly.
 CATEGORY_MAP: Final = LinearSegmentedColormap.from_list(

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from arm2d import ObjectWord
 from arm2d.constants import N_INTER
 from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.behaviour import NEVER, Behaviour
+from evolution.agents.behaviour import NEVER, Behaviour
 from evolution.figures_behaviour import head
 from evolution.figures_neurons import object_handles
 from evolution.style import FAINT, STYLE

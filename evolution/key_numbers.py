@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from arm2d import Condition, Readings
 from evolution import published
+from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.results import ConditionResults, Results
-from evolution.subtasks import SUBTASKS, AgentClass
 
 PLATEAU: Final = "plateau"
 AT_LIMIT: Final = "runs that end at 18/7"

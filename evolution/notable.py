@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED
-from evolution.postevaluation import N_INSTRUCTIONS
+from evolution.agents.postevaluation import N_INSTRUCTIONS
 from evolution.results import ConditionResults
 from evolution.runs.folder import RunFolder
 

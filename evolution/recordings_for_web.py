@@ -12,8 +12,8 @@ from typing import Any, Final
 import numpy as np
 
 from arm2d import TrialRecord
+from evolution.agents.recording import record_instruction
 from evolution.notable import Agent
-from evolution.recording import record_instruction
 from evolution.runs.sources import find_source
 
 AREAS: Final = ("right", "left")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from evolution import postevaluation, solving, transition_test
+from evolution.agents import postevaluation, solving, transition_test
 from evolution.runs.champion import keep_champions
 from evolution.runs.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
 from evolution.runs.folder import CHAMPIONS, RunFolder

@@ -19,13 +19,14 @@ from matplotlib.colors import to_hex
 
 from arm2d import NON_EXPERIENCED
 from arm2d.drawing import OBJECT_COLOURS
+from evolution.agents.classes import Sampling
+from evolution.agents.postevaluation import TRIALS
+from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.class_files import behaviours_kept, class_figures
-from evolution.class_observation import Sampling
 from evolution.figures import SUCCESS_MAP
 from evolution.figures_paper import all_figures
 from evolution.generaliser_text import generalisers_sentence
 from evolution.notable import Agent, best_agent
-from evolution.postevaluation import TRIALS
 from evolution.recordings_for_web import recordings_of
 from evolution.report_configuration import readings_rows, settings_rows, versions_rows
 from evolution.report_figures import figure_uri, file_uri
@@ -37,7 +38,6 @@ from evolution.results import ConditionResults, Results
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.stage_times import stage_times
 from evolution.standing import standing_of
-from evolution.subtasks import SUBTASKS, AgentClass
 
 TEMPLATE: Final = "report_template.html"
 # Where `wordarm lineage` and `wordarm behaviour` put what they draw, and what it shows.

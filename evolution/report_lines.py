@@ -10,10 +10,10 @@ import numpy as np
 
 from arm2d import Condition
 from evolution import published
+from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.generaliser_text import longest_spell, rank_of_generalisers
 from evolution.report_text import NOT_GIVEN, Line, of, percent
 from evolution.results import ConditionResults, Results
-from evolution.subtasks import SUBTASKS, AgentClass
 
 SUBTASK_WORDS: Final = MappingProxyType(
     {

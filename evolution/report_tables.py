@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from evolution import published
+from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
 from evolution.report_text import TITLES, Line, p_value, percent, points
 from evolution.results import Results
 from evolution.search.settings import Settings
-from evolution.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
 
 
 def category_tables(results: Results) -> list[tuple[str, list[Line]]]:

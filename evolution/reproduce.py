@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from evolution.class_observation import Sampling, observation_path
+from evolution.agents.classes import Sampling, observation_path
+from evolution.agents.subtasks import AgentClass
 from evolution.notable import best_agent
 from evolution.plan import LOGS
 from evolution.results import Results
-from evolution.subtasks import AgentClass
 from evolution.workers import Job
 
 

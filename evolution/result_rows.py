@@ -9,10 +9,10 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from evolution import published
+from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
 from evolution.generalisers import CHANCE_RANK
 from evolution.results import Results
 from evolution.search.settings import N_BEST
-from evolution.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
 
 
 def table_ii_rows(results: Results) -> Iterable[Sequence[object]]:

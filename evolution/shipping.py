@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from arm2d import Condition
+from evolution.agents.postevaluation import TRIALS
 from evolution.notable import Agent, best_agent, best_specialist
-from evolution.postevaluation import TRIALS
 from evolution.results import Results
 from evolution.runs.recorded import recorded_generation
 from evolution.runs.storage import make_folder, write_arrays

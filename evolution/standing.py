@@ -13,15 +13,15 @@ from pathlib import Path
 from statistics import median
 from typing import Final
 
-from evolution import postevaluation, transition_test
+from evolution.agents import postevaluation, transition_test
+from evolution.agents.postevaluation import late_spans
+from evolution.agents.solving import FILE as SOLVED
 from evolution.experiment import state_of
-from evolution.postevaluation import late_spans
 from evolution.runs.folder import CHAMPIONS, CONFIG, GENERATIONS_PER_PART, LOCK, RunFolder
 from evolution.runs.lease import held_elsewhere
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.solving import FILE as SOLVED
 
 LOCK_TABLE: Final = Path("/proc/locks")
 # Until parts have been tested: the time of 100 generations' tests, as a multiple of that of their

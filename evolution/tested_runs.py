@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from evolution.agents.postevaluation import PostEvaluation, read_post_evaluation
+from evolution.agents.solving import solved_trials
+from evolution.agents.transition_test import TransitionTest, read_transition_test
 from evolution.experiment import state_of
-from evolution.postevaluation import PostEvaluation, read_post_evaluation
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History
 from evolution.runs.recorded import recorded_histories
 from evolution.search.config import RunConfig
-from evolution.solving import solved_trials
-from evolution.transition_test import TransitionTest, read_transition_test
 
 
 @dataclass(frozen=True)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from arm2d import Condition
+from evolution.agents.subtasks import categories, count_table
 from evolution.runs.sources import SHIPPED, find_source
 from evolution.search.evaluation import evaluate
 from evolution.statistics import wilcoxon_as_published
-from evolution.subtasks import categories, count_table
 
 ROOT = Path(__file__).parents[1] / "docs"
 PAGE = (ROOT / "results.md").read_text(encoding="utf-8")

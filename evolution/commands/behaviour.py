@@ -11,10 +11,10 @@ from evolution.commands.agent import AgentCommand
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from evolution.behaviour import Behaviour
-    from evolution.lesions import LesionScores
+    from evolution.agents.behaviour import Behaviour
+    from evolution.agents.lesions import LesionScores
+    from evolution.agents.variance import VarianceShares
     from evolution.runs.sources import Source
-    from evolution.variance import VarianceShares
 
 
 @dataclass(frozen=True)
@@ -34,9 +34,9 @@ class BehaviourCommand(AgentCommand):
         """Record, silence words, draw and write."""
         from rich.console import Console
 
-        from evolution.behaviour import record_behaviour
-        from evolution.events import shares_by_event
-        from evolution.lesions import lesion_scores
+        from evolution.agents.behaviour import record_behaviour
+        from evolution.agents.events import shares_by_event
+        from evolution.agents.lesions import lesion_scores
 
         source = self.find_agent()
         world = (source.genotype, source.condition, source.readings)
@@ -93,7 +93,7 @@ def _shares_table(shares: dict[str, VarianceShares], origin: str) -> Table:
     """Mean shares of variance before and after first sight, and after first touch."""
     from rich.table import Table
 
-    from evolution.events import WINDOWS
+    from evolution.agents.events import WINDOWS
 
     table = Table("share of the neurons' variance", "object word", "action word", "both", title=origin)
     for name, (event, start, stop) in WINDOWS.items():
@@ -106,7 +106,7 @@ def _lesions_table(scores: LesionScores) -> Table:
     """Success of the experienced instructions, and of all nine, with each lesion."""
     from rich.table import Table
 
-    from evolution.lesions import LESIONS
+    from evolution.agents.lesions import LESIONS
 
     condition = scores.condition
     known = [condition.instructions.index(each) for each in condition.experienced]

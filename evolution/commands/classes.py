@@ -47,8 +47,8 @@ class Classes:
         from rich.console import Console
         from rich.progress import track
 
+        from evolution.agents.classes import Sampling, observe
         from evolution.class_files import behaviours_of, write_classes
-        from evolution.class_observation import Sampling, observe
         from evolution.experiment import open_experiment
         from evolution.runs.lock import locked
         from evolution.tested_runs import name_of, unfinished
@@ -79,8 +79,8 @@ def _table(behaviours: Behaviours) -> Table:
     """Object word before sight, action word after it, and success intact and with the harmless lesions."""
     from rich.table import Table
 
+    from evolution.agents.lesions import LESIONS
     from evolution.figures_classes import SHORT
-    from evolution.lesions import LESIONS
     from evolution.report_text import TITLES
 
     table = Table(

@@ -33,7 +33,7 @@ class Gallery(AgentCommand):
 
     def run(self) -> int:
         """Record the trials and let the humanoid follow them, or carry them out."""
-        from evolution.recording import record_instruction
+        from evolution.agents.recording import record_instruction
         from evolution.runs.storage import make_folder
         from models.robots import get_robot
         from mujoco_port.physical_port import check_acts, port_physical_gallery

@@ -11,8 +11,8 @@ from tyro.conf import Positional, arg
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from evolution.lineage import Lineage
-    from evolution.lineage_scores import LineageScores
+    from evolution.agents.lineage import Lineage
+    from evolution.agents.lineage_scores import LineageScores
     from evolution.runs.folder import RunFolder
 
 
@@ -43,8 +43,8 @@ class LineageCommand:
         from rich.console import Console
         from rich.progress import Progress
 
-        from evolution.lineage import trace_lineage
-        from evolution.lineage_scores import score_lineage
+        from evolution.agents.lineage import trace_lineage
+        from evolution.agents.lineage_scores import score_lineage
         from evolution.runs.folder import RunFolder
 
         folder = RunFolder.open(self.folder)
@@ -71,9 +71,9 @@ class LineageCommand:
 
 def _write(folder: RunFolder, lineage: Lineage, scores: LineageScores, rank: int, output: Path) -> list[Path]:
     """Write figure and arrays; their paths."""
+    from evolution.agents.innovations import lineage_arrays
     from evolution.figures import save_figure
     from evolution.figures_lineage import lineage_figure
-    from evolution.innovations import lineage_arrays
     from evolution.runs.storage import make_folder, write_arrays
 
     make_folder(output)
@@ -91,7 +91,7 @@ def _table(lineage: Lineage, scores: LineageScores) -> Table:
     """Skills in the order in which they first came."""
     from rich.table import Table
 
-    from evolution.innovations import innovations
+    from evolution.agents.innovations import innovations
 
     title = f"{lineage.distinct.shape[0]} distinct ancestors in {len(lineage)} generations"
     table = Table("skill", "first came", "for good", "agent", title=title)

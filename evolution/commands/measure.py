@@ -20,10 +20,10 @@ class Measure:
 
     def run(self) -> int:
         """Measure, keep what was simulated beside the run, and print."""
+        from evolution.agents.subtasks import SUBTASKS
         from evolution.runs.folder import RunFolder
         from evolution.runs.lock import locked
         from evolution.study.measures import measure
-        from evolution.subtasks import SUBTASKS
 
         run = RunFolder.open(self.run_folder)
         with locked(run.path):

@@ -47,7 +47,7 @@ class Port(AgentCommand):
             raise ValueError("without a video there is nothing to do but physics; add --physics")
         instruction = Instruction.parse(self.instruction)
 
-        from evolution.recording import record_instruction
+        from evolution.agents.recording import record_instruction
         from evolution.runs.storage import make_folder
         from models.robots import get_robot
         from mujoco_port.physical_port import check_acts, port_physical_trial

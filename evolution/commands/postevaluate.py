@@ -22,11 +22,11 @@ class PostEvaluate:
         """Post-evaluate every finished run."""
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+        from evolution.agents.postevaluation import post_evaluate
+        from evolution.agents.solving import solved_trials
+        from evolution.agents.transition_test import run_transition_test
         from evolution.experiment import open_experiment, state_of
-        from evolution.postevaluation import post_evaluate
         from evolution.runs.lock import locked
-        from evolution.solving import solved_trials
-        from evolution.transition_test import run_transition_test
 
         columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
         experiment, damaged = open_experiment(self.path), []

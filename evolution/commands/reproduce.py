@@ -135,8 +135,8 @@ def _look_at_agents(results: Results, folder: Path, at_once: int, stop: StopRequ
 
 def _report(results: Results, folder: Path) -> None:
     """The page."""
+    from evolution.agents.classes import Sampling
     from evolution.class_files import behaviours_kept, write_classes
-    from evolution.class_observation import Sampling
     from evolution.report import write_report
     from evolution.stage_times import timed
 

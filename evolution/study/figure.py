@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from arm2d import Condition
 from arm2d.drawing import INK
 from evolution import published
+from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.figures import FAINT, STYLE, SUCCESS_MAP
 from evolution.study.table import AREAS, VariantMeasures, interval
-from evolution.subtasks import SUBTASKS, AgentClass
 
 DEFAULT: Final = "default"
 ACCENT: Final = "#0072B2"

@@ -13,8 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import draw_trials, run_trials
+from evolution.agents.postevaluation import N_INSTRUCTIONS, best_genotypes, late_spans
+from evolution.agents.solving import solved_trials
+from evolution.agents.subtasks import AgentClass, categories, classify
 from evolution.analysis import PLATEAU_SHARE
-from evolution.postevaluation import N_INSTRUCTIONS, best_genotypes, late_spans
 from evolution.results import FITNESS_LIMIT, PLATEAU_TOLERANCE
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History, check_array
@@ -23,8 +25,6 @@ from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
 from evolution.search.randomness import Purpose, generator
 from evolution.search.settings import N_BEST
-from evolution.solving import solved_trials
-from evolution.subtasks import AgentClass, categories, classify
 
 FILE: Final = Path("measures") / "late.npz"
 # Elites live for many generations, so neighbours say little that is new.

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from arm2d import Condition, Instruction
 from evolution import published
+from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.search.randomness import Purpose, generator
 from evolution.statistics import mean_interval, midranks
 from evolution.study.measures import RunMeasures
-from evolution.subtasks import SUBTASKS, AgentClass
 
 AREAS: Final = ("right", "left")
 ACTIONS: Final = ("MOVE", "TOUCH", "third")

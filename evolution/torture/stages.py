@@ -6,7 +6,7 @@ import random
 from pathlib import Path
 from typing import Final
 
-from evolution import postevaluation, solving, transition_test
+from evolution.agents import postevaluation, solving, transition_test
 from evolution.runs.folder import CHAMPIONS, CHECKPOINT, CONFIG, META, PARTS
 
 # What is written, and the share of its writes at which somebody is killed. What comes seldom is hit more

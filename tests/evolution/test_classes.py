@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 
 from arm2d import Condition
-from evolution import class_observation
+from evolution.agents import classes as class_observation
+from evolution.agents.classes import CLASSES, Observation, Sampling, choose, observation_path, observe
+from evolution.agents.lesions import lesion_scores
+from evolution.agents.postevaluation import late_history, post_evaluate
+from evolution.agents.subtasks import AgentClass
 from evolution.class_files import behaviours_of, class_figures, write_classes
-from evolution.class_observation import CLASSES, Observation, Sampling, choose, observation_path, observe
 from evolution.class_results import class_behaviours, measures
 from evolution.cli import main
-from evolution.lesions import lesion_scores
-from evolution.postevaluation import late_history, post_evaluate
 from evolution.runs.folder import RunFolder
 from evolution.runs.storage import DamagedFileError
-from evolution.subtasks import AgentClass
 
 INDICATE = Condition.WITH_INDICATE
 TINY = Sampling(agents=2, per_area=2)

@@ -9,17 +9,17 @@ import pytest
 
 from arm2d import Condition, Readings
 from evolution import published
+from evolution.agents.postevaluation import post_evaluate
+from evolution.agents.transition_test import run_transition_test
 from evolution.analysis import analyse
 from evolution.cli import main
 from evolution.experiment import open_experiment
 from evolution.figures_compare import compare_figure
 from evolution.key_numbers import AT_LIMIT, PLATEAU, by_condition, departures, key_numbers, top_name
-from evolution.postevaluation import post_evaluate
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.transition_test import run_transition_test
 
 SETTINGS = Settings(population=10, elites=2, parents=5, generations=6)
 LARGER = Readings(object_radius=8.0)

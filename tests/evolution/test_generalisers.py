@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from evolution.agents.postevaluation import late_spans
 from evolution.figures_generalisers import draw_density, draw_marks
 from evolution.generalisers import (
     generalisers_of,
@@ -11,7 +12,6 @@ from evolution.generalisers import (
     mean_rank_against_chance,
     spell_lengths,
 )
-from evolution.postevaluation import late_spans
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.search.algorithm import rank

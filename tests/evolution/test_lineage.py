@@ -2,11 +2,11 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, Readings, draw_trials, record_trial
+from evolution.agents.innovations import innovations, lineage_arrays
+from evolution.agents.lineage import ancestor_indices, trace_lineage
+from evolution.agents.lineage_scores import Skills, longest_bent_stay, offsets, score_lineage
 from evolution.cli import main
 from evolution.figures_lineage import lineage_figure
-from evolution.innovations import innovations, lineage_arrays
-from evolution.lineage import ancestor_indices, trace_lineage
-from evolution.lineage_scores import Skills, longest_bent_stay, offsets, score_lineage
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.replay import population_at

@@ -6,18 +6,20 @@ import numpy as np
 import pytest
 
 from arm2d import Condition
-from evolution import solving, transition_test
-from evolution.analysis import analyse
-from evolution.cli import main, parse
-from evolution.experiment import open_experiment
-from evolution.figures_paper import all_figures
-from evolution.postevaluation import (
+from evolution.agents import solving, transition_test
+from evolution.agents.postevaluation import (
     evaluate_agents,
     late_spans,
     part_path,
     post_evaluate,
     read_post_evaluation,
 )
+from evolution.agents.solving import solved_trials
+from evolution.agents.transition_test import run_transition_test
+from evolution.analysis import analyse
+from evolution.cli import main, parse
+from evolution.experiment import open_experiment
+from evolution.figures_paper import all_figures
 from evolution.repair import repair
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import evolve
@@ -26,8 +28,6 @@ from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.shipping import notable_agents, ship
-from evolution.solving import solved_trials
-from evolution.transition_test import run_transition_test
 
 SETTINGS = Settings(population=12, elites=2, parents=6, generations=9)
 

@@ -13,10 +13,13 @@ from matplotlib.figure import Figure
 
 from arm2d import Condition, Readings, draw_trials, record_trial
 from evolution import published
+from evolution.agents.postevaluation import post_evaluate
+from evolution.agents.solving import solved_trials
+from evolution.agents.subtasks import SUBTASKS
+from evolution.agents.transition_test import run_transition_test
 from evolution.analysis import analyse
 from evolution.experiment import open_experiment
 from evolution.notable import best_agent
-from evolution.postevaluation import post_evaluate
 from evolution.recordings_for_web import compact
 from evolution.report import render, write_report
 from evolution.report_figures import file_uri
@@ -26,9 +29,6 @@ from evolution.report_text import p_value, percent
 from evolution.runs.run import evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.solving import solved_trials
-from evolution.subtasks import SUBTASKS
-from evolution.transition_test import run_transition_test
 
 SMALL = Settings(population=10, elites=2, parents=5, generations=30)
 VOID = {"meta", "link", "img", "input", "br", "hr"}

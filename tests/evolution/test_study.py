@@ -10,8 +10,9 @@ import pytest
 
 from arm2d import Condition, Readings
 from arm2d.readings import choices
+from evolution.agents.postevaluation import post_evaluate
+from evolution.agents.solving import solved_trials
 from evolution.cli import main
-from evolution.postevaluation import post_evaluate
 from evolution.result_files import to_csv
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
@@ -19,7 +20,6 @@ from evolution.runs.run import evolve
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.solving import solved_trials
 from evolution.study.effects import effect_rows, effects, holm
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import FILE, measure

@@ -5,7 +5,7 @@ import pytest
 
 from arm2d import NON_EXPERIENCED, Condition
 from evolution import published
-from evolution.subtasks import AgentClass, categories, classify, count_table
+from evolution.agents.subtasks import AgentClass, categories, classify, count_table
 
 CONDITION = Condition.WITH_INDICATE
 TOUCH_GREEN, MOVE_BLUE = (CONDITION.instructions.index(each) for each in NON_EXPERIENCED)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from arm2d import NON_EXPERIENCED, Condition, Readings, record_trial, run_trials
-from evolution.transitions import (
+from evolution.agents.transitions import (
     action_transitions,
     draw_transition_trials,
     object_transitions,

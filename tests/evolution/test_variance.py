@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from arm2d import ActionWord, Condition, Instruction, ObjectWord, Readings
-from evolution.behaviour import record_behaviour
-from evolution.variance import AFTER, BEFORE, align, mean_by_instruction, variance_shares
+from evolution.agents.behaviour import record_behaviour
+from evolution.agents.variance import AFTER, BEFORE, align, mean_by_instruction, variance_shares
 
 INDICATE = Condition.WITH_INDICATE
 

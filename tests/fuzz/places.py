@@ -6,14 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
+from evolution.agents.postevaluation import post_evaluate
+from evolution.agents.solving import solved_trials
+from evolution.agents.transition_test import run_transition_test
 from evolution.plan import Plan
-from evolution.postevaluation import post_evaluate
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import Watcher, evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.solving import solved_trials
-from evolution.transition_test import run_transition_test
 
 SETTINGS = Settings(population=6, elites=2, parents=3, generations=104, trials_per_area=1)
 CONFIG = RunConfig(seed=5, settings=SETTINGS)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from evolution.recording import record_instruction
+from evolution.agents.recording import record_instruction
 from evolution.runs.sources import find_source
 from mujoco_port.gallery import CELL_WIDTH, CLOCK, ROBOT_WIDTH, STRIP, VIEW_HEIGHT, cell_pictures
 from mujoco_port.physical_port import port_physical_gallery, start_of

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d import Condition, Instruction, Readings, TrialRecord, Trials, decode, draw_trials, record_trial
 from arm2d.arithmetic import sigmoid
 from arm2d.constants import MAX_STEPS, N_INTER, VIEW_HALF_WIDTH
-from evolution.lineage_scores import offsets
+from evolution.agents.lineage_scores import offsets
 from evolution.search.randomness import Purpose, generator
 
 TRIALS_PER_AREA: Final = 20

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition, Instruction
-from evolution.postevaluation import TRIALS
+from evolution.agents.postevaluation import TRIALS
 
 TOUCH_GREEN, MOVE_BLUE = NON_EXPERIENCED
 SUBTASKS: Final = ("I", "II", "III", "IV")

@@ -25,7 +25,7 @@ from arm2d import (
     draw_trials,
     run_trials,
 )
-from evolution.postevaluation import TRIALS
+from evolution.agents.postevaluation import TRIALS
 from evolution.search.evaluation import TRIALS_PER_AREA
 
 # The change comes at one of so many steps, from the first after which the target is in view.

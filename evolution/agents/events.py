@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.behaviour import Behaviour
-from evolution.variance import VarianceShares, variance_shares
+from evolution.agents.behaviour import Behaviour
+from evolution.agents.variance import VarianceShares, variance_shares
 
 START: Final = "trial start"
 SIGHT: Final = "first sight of the target"

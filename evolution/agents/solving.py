@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import run_trials
-from evolution.postevaluation import FOLDER
+from evolution.agents.postevaluation import FOLDER
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array, check_range
 from evolution.runs.recorded import recorded_histories

@@ -14,15 +14,15 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution import postevaluation
-from evolution.postevaluation import TRIALS, best_genotypes, late_spans
+from evolution.agents import postevaluation
+from evolution.agents.postevaluation import TRIALS, best_genotypes, late_spans
+from evolution.agents.subtasks import AgentClass, classify
+from evolution.agents.transitions import action_transitions, object_transitions, transition_successes
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array, check_range
 from evolution.runs.storage import make_folder
 from evolution.search.randomness import Purpose, generator
 from evolution.search.settings import N_BEST
-from evolution.subtasks import AgentClass, classify
-from evolution.transitions import action_transitions, object_transitions, transition_successes
 
 FOLDER: Final = "transitions"
 CLASSES: Final = tuple(AgentClass)

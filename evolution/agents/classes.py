@@ -13,16 +13,16 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.behaviour import record_behaviour
-from evolution.events import WINDOWS, shares_by_event
-from evolution.lesions import LESIONS, lesion_scores
-from evolution.postevaluation import N_INSTRUCTIONS, late_history, read_post_evaluation
+from evolution.agents.behaviour import record_behaviour
+from evolution.agents.events import WINDOWS, shares_by_event
+from evolution.agents.lesions import LESIONS, lesion_scores
+from evolution.agents.postevaluation import N_INSTRUCTIONS, late_history, read_post_evaluation
+from evolution.agents.subtasks import AgentClass, classify
+from evolution.agents.variance import VarianceShares, bin_times
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array
 from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.settings import N_BEST
-from evolution.subtasks import AgentClass, classify
-from evolution.variance import VarianceShares, bin_times
 
 FOLDER: Final = "behaviour"
 CLASSES: Final = tuple(AgentClass)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.lineage import Lineage
-from evolution.lineage_scores import NEVER, LineageScores
+from evolution.agents.lineage import Lineage
+from evolution.agents.lineage_scores import NEVER, LineageScores
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import ActionWord, Condition, LabelChanges, ObjectWord, Readings, Trials, run_trials
 from arm2d.kernel.world import WORD_CODES
-from evolution.behaviour import TRIALS_PER_AREA, draw_behaviour_trials
+from evolution.agents.behaviour import TRIALS_PER_AREA, draw_behaviour_trials
 
 WORDS: Final = ("action", "object")
 TIMES: Final = ("before sight", "after sight")

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, TrialRecord, Trials, draw_trials, record_trial, run_trials
-from evolution.lineage import Lineage
+from evolution.agents.lineage import Lineage
 from evolution.search.randomness import Purpose, generator
 
 # A skill is had above 75 %, the paper's limit for its classes of agents. It has come when 25 generations

@@ -1,0 +1,1 @@
+"""What evolved agents do: the paper's tests, ancestors, behaviour, lesions."""
