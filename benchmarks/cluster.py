@@ -21,10 +21,10 @@ from pathlib import Path
 
 import psutil
 
-from evolution.cluster.address import connected
-from evolution.cluster.running import RemoteStart
-from evolution.plan import Plan
-from evolution.plan_runner import processes, run_plan
+from evolution.experiments.cluster.address import connected
+from evolution.experiments.cluster.running import RemoteStart
+from evolution.experiments.plan import Plan
+from evolution.experiments.plan_runner import processes, run_plan
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 

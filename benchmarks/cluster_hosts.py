@@ -17,14 +17,14 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from evolution.cluster.address import connected
-from evolution.cluster.running import RemoteStart
-from evolution.jobs import Watcher
-from evolution.plan import Plan
-from evolution.plan_runner import run_plan
+from evolution.experiments.cluster.address import connected
+from evolution.experiments.cluster.running import RemoteStart
+from evolution.experiments.jobs import Watcher
+from evolution.experiments.plan import Plan
+from evolution.experiments.plan_runner import run_plan
+from evolution.experiments.standing import is_held
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.standing import is_held
 
 HOSTS = ("wordarm0", "wordarm1", "wordarm2")
 BRIDGE = "wordarm"

@@ -20,14 +20,14 @@ import time
 from contextlib import redirect_stdout
 from pathlib import Path
 
-from evolution.plan import Plan, evolve_arguments
-from evolution.plan_runner import run_plan_shown
+from evolution.experiments.plan import Plan, evolve_arguments
+from evolution.experiments.plan_runner import run_plan_shown
+from evolution.experiments.stage_times import FILE
+from evolution.experiments.warm_workers import WarmStart
+from evolution.experiments.workers import ColdStart, Job
 from evolution.runs.meta import machine
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.stage_times import FILE
-from evolution.warm_workers import WarmStart
-from evolution.workers import ColdStart, Job
 
 STARTS = 5
 SHORT = Settings(population=5, elites=1, parents=2, generations=1, trials_per_area=1)

@@ -19,7 +19,7 @@ from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS, AgentClass, catego
 from evolution.agents.transition_test import CLASSES, TransitionTest
 from evolution.agents.transitions import passes
 from evolution.comparisons import compare_conditions
-from evolution.experiment import Experiment
+from evolution.experiments.experiment import Experiment
 from evolution.generalisers import generalisers_of
 from evolution.results import ConditionResults, Results, TransitionOutcome
 from evolution.runs.folder import RunFolder

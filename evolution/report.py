@@ -23,6 +23,8 @@ from evolution.agents.classes import Sampling
 from evolution.agents.postevaluation import TRIALS
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.class_files import behaviours_kept, class_figures
+from evolution.experiments.stage_times import stage_times
+from evolution.experiments.standing import standing_of
 from evolution.figures import SUCCESS_MAP
 from evolution.figures_paper import all_figures
 from evolution.generaliser_text import generalisers_sentence
@@ -36,8 +38,6 @@ from evolution.report_tables import category_tables, comparison_rows, departures
 from evolution.report_text import TITLES
 from evolution.results import ConditionResults, Results
 from evolution.runs.storage import make_folder, write_atomically
-from evolution.stage_times import stage_times
-from evolution.standing import standing_of
 
 TEMPLATE: Final = "report_template.html"
 # Where `wordarm lineage` and `wordarm behaviour` put what they draw, and what it shows.

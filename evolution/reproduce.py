@@ -6,10 +6,10 @@ from pathlib import Path
 
 from evolution.agents.classes import Sampling, observation_path
 from evolution.agents.subtasks import AgentClass
+from evolution.experiments.plan import LOGS
+from evolution.experiments.workers import Job
 from evolution.notable import best_agent
-from evolution.plan import LOGS
 from evolution.results import Results
-from evolution.workers import Job
 
 
 def agent_chains(results: Results, folder: Path) -> list[list[Job]]:

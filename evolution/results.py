@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from arm2d import Condition
 from evolution.agents.subtasks import SUBTASKS, AgentClass
-from evolution.experiment import Experiment
+from evolution.experiments.experiment import Experiment
 from evolution.generalisers import Generalisers
 from evolution.runs.folder import RunFolder
 from evolution.search.settings import N_BEST

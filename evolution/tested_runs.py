@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from evolution.agents.postevaluation import PostEvaluation, read_post_evaluation
 from evolution.agents.solving import solved_trials
 from evolution.agents.transition_test import TransitionTest, read_transition_test
-from evolution.experiment import state_of
+from evolution.experiments.experiment import state_of
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History
 from evolution.runs.recorded import recorded_histories

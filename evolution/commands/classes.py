@@ -49,7 +49,7 @@ class Classes:
 
         from evolution.agents.classes import Sampling, observe
         from evolution.class_files import behaviours_of, write_classes
-        from evolution.experiment import open_experiment
+        from evolution.experiments.experiment import open_experiment
         from evolution.runs.lock import locked
         from evolution.tested_runs import name_of, unfinished
 

@@ -14,10 +14,10 @@ from tyro.conf import arg
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from evolution.cluster.connection import Connection
-    from evolution.cluster.running import RemoteStart
-    from evolution.cluster.slurm import SlurmOptions
-    from evolution.plan import Plan
+    from evolution.experiments.cluster.connection import Connection
+    from evolution.experiments.cluster.running import RemoteStart
+    from evolution.experiments.cluster.slurm import SlurmOptions
+    from evolution.experiments.plan import Plan
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class SlurmFlags:
 
     def options(self) -> SlurmOptions:
         """The options asked for: defaults, then the file, then flags."""
-        from evolution.cluster.slurm import SlurmOptions, read_options
+        from evolution.experiments.cluster.slurm import SlurmOptions, read_options
 
         given = {each.name: getattr(self, each.name) for each in fields(self) if each.name != "file"}
         options = read_options(self.file) if self.file else SlurmOptions()
@@ -108,7 +108,7 @@ class ClusterFlags:
         """
         if not self.slurm:
             raise ValueError("--dry-run shows what SLURM would be given; it needs --slurm")
-        from evolution.cluster.slurm import job_script
+        from evolution.experiments.cluster.slurm import job_script
 
         print(job_script(self.slurm_options.options()), end="")
         return 0
@@ -127,7 +127,7 @@ class ClusterFlags:
         if not self.given:
             yield None
             return
-        from evolution.cluster.running import RemoteStart
+        from evolution.experiments.cluster.running import RemoteStart
 
         with self._connection(folder) as connection:
             connection.on_note = lambda note: console.print(note, highlight=False, soft_wrap=True)
@@ -135,10 +135,10 @@ class ClusterFlags:
 
     def _connection(self, folder: Path) -> AbstractContextManager[Connection]:
         if self.scheduler is not None:
-            from evolution.cluster.address import connected
+            from evolution.experiments.cluster.address import connected
 
             return connected(self.scheduler, folder)
-        from evolution.cluster.slurm import slurm_cluster
+        from evolution.experiments.cluster.slurm import slurm_cluster
 
         return slurm_cluster(self.slurm_options.options(), folder)
 

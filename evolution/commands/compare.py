@@ -29,7 +29,7 @@ class Compare:
         from rich.console import Console
 
         from evolution.analysis import analyse
-        from evolution.experiment import open_experiment
+        from evolution.experiments.experiment import open_experiment
         from evolution.figures import save_figure
         from evolution.figures_compare import compare_figure
         from evolution.key_numbers import comparison_rows, departures

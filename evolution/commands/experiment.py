@@ -13,9 +13,9 @@ from evolution.commands.cluster_flags import ClusterFlags
 from evolution.commands.evolve import INTERRUPTED
 
 if TYPE_CHECKING:
-    from evolution.experiment_spec import ExperimentSpec
-    from evolution.plan import Plan
-    from evolution.standing import Standing
+    from evolution.experiments.plan import Plan
+    from evolution.experiments.spec import ExperimentSpec
+    from evolution.experiments.standing import Standing
 
 BAD_INPUT: Final = 2
 
@@ -51,7 +51,7 @@ class ExperimentCommand:
         """Evolve; the exit code is 130 if it was stopped, 2 if a run was given up."""
         from rich.console import Console
 
-        from evolution.plan_runner import processes, run_plan_shown
+        from evolution.experiments.plan_runner import processes, run_plan_shown
         from evolution.runs.interrupt import StopRequest
         from evolution.runs.lock import locked
         from evolution.runs.storage import make_folder
@@ -80,9 +80,9 @@ class ExperimentCommand:
     @property
     def spec(self) -> ExperimentSpec:
         """What file and flags ask for."""
-        from evolution.experiment_spec import check_size
-        from evolution.grid import read_experiment
-        from evolution.seeds import read_seeds
+        from evolution.experiments.grid import read_experiment
+        from evolution.experiments.seeds import read_seeds
+        from evolution.experiments.spec import check_size
 
         spec = read_experiment(self.file)
         if self.generations is not None:
@@ -98,9 +98,9 @@ class ExperimentCommand:
 
 def _list_runs(plan: Plan, spec: ExperimentSpec, at_once: int) -> None:
     """Print every run with its time, and the whole."""
-    from evolution.estimate import expected_pace
-    from evolution.live_table import duration
-    from evolution.standing import time_left
+    from evolution.experiments.estimate import expected_pace
+    from evolution.experiments.live_table import duration
+    from evolution.experiments.standing import time_left
 
     standings = plan.standings()
     pace, how = expected_pace(plan)

@@ -25,7 +25,7 @@ class PostEvaluate:
         from evolution.agents.postevaluation import post_evaluate
         from evolution.agents.solving import solved_trials
         from evolution.agents.transition_test import run_transition_test
-        from evolution.experiment import open_experiment, state_of
+        from evolution.experiments.experiment import open_experiment, state_of
         from evolution.runs.lock import locked
 
         columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())

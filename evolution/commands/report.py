@@ -21,7 +21,7 @@ class Report:
     def run(self) -> int:
         """Analyse, write and print the path."""
         from evolution.analysis import analyse
-        from evolution.experiment import open_experiment
+        from evolution.experiments.experiment import open_experiment
         from evolution.report import write_report
 
         results = analyse(open_experiment(self.experiment))

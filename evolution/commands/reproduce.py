@@ -16,8 +16,8 @@ from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
 if TYPE_CHECKING:
-    from evolution.jobs import Failure
-    from evolution.plan import Plan
+    from evolution.experiments.jobs import Failure
+    from evolution.experiments.plan import Plan
     from evolution.results import Results
     from evolution.runs.interrupt import StopRequest
 
@@ -56,7 +56,7 @@ class Reproduce:
     @property
     def plan(self) -> Plan:
         """The runs that are asked for."""
-        from evolution.plan import Plan
+        from evolution.experiments.plan import Plan
 
         if not 1 <= self.runs <= MOST_RUNS:
             raise ValueError(f"asked for {self.runs} runs of each condition; give 1 to {MOST_RUNS}")
@@ -72,7 +72,7 @@ class Reproduce:
         """Reproduce; the exit code is 130 if it was stopped, 2 if a job was given up."""
         from rich.console import Console
 
-        from evolution.plan_runner import processes, run_plan_shown
+        from evolution.experiments.plan_runner import processes, run_plan_shown
         from evolution.runs.interrupt import StopRequest
         from evolution.runs.lock import locked
         from evolution.runs.storage import make_folder
@@ -105,9 +105,9 @@ class Reproduce:
 def _analyse(folder: Path) -> Results:
     """The results, their tables and figures written into `results`."""
     from evolution.analysis import analyse
-    from evolution.experiment import open_experiment
+    from evolution.experiments.experiment import open_experiment
+    from evolution.experiments.stage_times import timed
     from evolution.result_files import summary, write_results
-    from evolution.stage_times import timed
 
     print("analysing all runs", flush=True)
     with timed(folder, "analysing"):
@@ -119,9 +119,9 @@ def _analyse(folder: Path) -> Results:
 
 def _look_at_agents(results: Results, folder: Path, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
     """Trace and observe the best agent of each condition, and observe classes; the jobs given up."""
-    from evolution.jobs import Watcher, run_jobs
+    from evolution.experiments.jobs import Watcher, run_jobs
+    from evolution.experiments.stage_times import note_time
     from evolution.reproduce import agent_chains, class_chains
-    from evolution.stage_times import note_time
 
     if chains := agent_chains(results, folder) + class_chains(results, folder):
         print("tracing the best agents' ancestors, and what they and their classes do", flush=True)
@@ -137,8 +137,8 @@ def _report(results: Results, folder: Path) -> None:
     """The page."""
     from evolution.agents.classes import Sampling
     from evolution.class_files import behaviours_kept, write_classes
+    from evolution.experiments.stage_times import timed
     from evolution.report import write_report
-    from evolution.stage_times import timed
 
     with timed(folder, "reporting"):
         behaviours, _ = behaviours_kept(results, Sampling())
@@ -149,8 +149,8 @@ def _report(results: Results, folder: Path) -> None:
 
 def _tell_times(folder: Path, wall: float) -> None:
     """Where the time went."""
-    from evolution.live_table import duration
-    from evolution.stage_times import stage_times, time_lines
+    from evolution.experiments.live_table import duration
+    from evolution.experiments.stage_times import stage_times, time_lines
 
     print(f"this command took {duration(wall)}; all its processes so far:")
     for line in time_lines(stage_times(folder)):

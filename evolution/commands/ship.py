@@ -21,7 +21,7 @@ class Ship:
     def run(self) -> int:
         """Choose, write and print."""
         from evolution.analysis import analyse
-        from evolution.experiment import open_experiment
+        from evolution.experiments.experiment import open_experiment
         from evolution.shipping import ship
 
         for path in ship(analyse(open_experiment(self.experiment)), self.output):

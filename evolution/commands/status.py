@@ -26,10 +26,10 @@ class Status:
         """Read and print once."""
         from rich.console import Console
 
-        from evolution.live_table import run_table
+        from evolution.experiments.live_table import run_table
+        from evolution.experiments.standing import pace_of
+        from evolution.experiments.status import experiment_standings
         from evolution.runs.folder import RunFolder
-        from evolution.standing import pace_of
-        from evolution.status import experiment_standings
 
         standings = experiment_standings(self.path)
         at_work = sum(each.at_work for each in standings.values())

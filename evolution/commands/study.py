@@ -10,8 +10,8 @@ from tyro.conf import Positional
 
 if TYPE_CHECKING:
     from arm2d import Readings
-    from evolution.jobs import Failure
-    from evolution.plan import Plan
+    from evolution.experiments.jobs import Failure
+    from evolution.experiments.plan import Plan
     from evolution.runs.interrupt import StopRequest
     from evolution.study.variants import Part
 
@@ -56,7 +56,7 @@ class StudyCommand:
 
     def run(self) -> int:
         """Study; the exit code is 130 if it was stopped, 2 if a run was given up or nothing is measured."""
-        from evolution.plan_runner import processes
+        from evolution.experiments.plan_runner import processes
         from evolution.runs.interrupt import StopRequest
         from evolution.runs.lock import locked
         from evolution.runs.storage import make_folder
@@ -97,7 +97,7 @@ class StudyCommand:
 
     def _nearest(self, among: Literal["screening", "around"]) -> list[Readings]:
         """The readings that came nearest to the paper in a part that stands in the same folder."""
-        from evolution.plan_file import read_plan
+        from evolution.experiments.plan_file import read_plan
         from evolution.study.results import measured_variants
         from evolution.study.table import nearest
 
@@ -110,14 +110,14 @@ class StudyCommand:
 
 
 def _plan(part: Part, folder: Path) -> Plan:
-    from evolution.plan import Plan
+    from evolution.experiments.plan import Plan
 
     return Plan(folder / part.name, tuple(part.configs()), post_evaluate=False)
 
 
 def _evolve_and_measure(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
     """Run what is not done yet; the jobs that were given up."""
-    from evolution.plan_runner import run_plan_shown
+    from evolution.experiments.plan_runner import run_plan_shown
     from evolution.study.results import measure_runs
 
     failures = run_plan_shown(plan, at_once, stop)

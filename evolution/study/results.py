@@ -8,22 +8,22 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Condition
+from evolution.experiments.jobs import Failure, Watcher, run_jobs
+from evolution.experiments.plan import LOGS, Plan
+from evolution.experiments.standing import Standing
+from evolution.experiments.warm_workers import WarmStart
+from evolution.experiments.workers import Ended, Job
 from evolution.figures import save_figure
 from evolution.figures_paper import TITLES
-from evolution.jobs import Failure, Watcher, run_jobs
-from evolution.plan import LOGS, Plan
 from evolution.result_files import to_csv
 from evolution.runs.folder import RunFolder
 from evolution.runs.interrupt import StopRequest
 from evolution.runs.storage import make_folder, write_atomically
-from evolution.standing import Standing
 from evolution.study.effects import effect_rows
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import is_measured, measure
 from evolution.study.table import VariantMeasures, group, run_rows, variant_rows
 from evolution.study.variants import Part
-from evolution.warm_workers import WarmStart
-from evolution.workers import Ended, Job
 
 MEASURING: Final = "measuring"
 COUNT_INTERVAL: Final = 15.0  # [s]

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Condition
-from evolution.plan import Plan, evolve_arguments
+from evolution.experiments.plan import Plan, evolve_arguments
 from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings

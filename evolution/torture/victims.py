@@ -53,7 +53,7 @@ def starts_workers(process: int, parent: int) -> bool:
     """Whether a process is the one that forks the parent's workers; these share its command line."""
     with suppress(OSError):
         place = PROCESSES / str(process)
-        forks = b"evolution.fork_server" in (place / "cmdline").read_bytes().split(b"\0")
+        forks = b"evolution.experiments.fork_server" in (place / "cmdline").read_bytes().split(b"\0")
         after_name = (place / "stat").read_text(encoding="ascii", errors="replace").rpartition(")")[2]
         return forks and int(after_name.split()[1]) == parent
     return False

@@ -10,14 +10,14 @@ from dask_processes import DaskProcesses, parent_of, wait_for
 from small_runs import SMALL, SMALL_FLAGS, contents
 
 from evolution.cli import main
-from evolution.cluster import connection
-from evolution.cluster.address import connected
-from evolution.cluster.agreement import Order, disagreement, fingerprint
-from evolution.cluster.running import run_jobs_on
-from evolution.jobs import Watcher
+from evolution.experiments.cluster import connection
+from evolution.experiments.cluster.address import connected
+from evolution.experiments.cluster.agreement import Order, disagreement, fingerprint
+from evolution.experiments.cluster.running import run_jobs_on
+from evolution.experiments.jobs import Watcher
+from evolution.experiments.standing import is_held
+from evolution.experiments.workers import Job
 from evolution.runs.folder import LOCK
-from evolution.standing import is_held
-from evolution.workers import Job
 
 pytestmark = pytest.mark.slow
 

@@ -13,7 +13,7 @@ from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.transition_test import run_transition_test
 from evolution.analysis import analyse
 from evolution.cli import main
-from evolution.experiment import open_experiment
+from evolution.experiments.experiment import open_experiment
 from evolution.figures_compare import compare_figure
 from evolution.key_numbers import AT_LIMIT, PLATEAU, by_condition, departures, key_numbers, top_name
 from evolution.runs.folder import RunFolder

@@ -14,13 +14,13 @@ from rich.console import Console
 
 from arm2d import Readings
 from evolution.cli import main
-from evolution.live_table import plain_lines, run_table
-from evolution.plan import Plan
-from evolution.plan_runner import PlanWatch
+from evolution.experiments.live_table import plain_lines, run_table
+from evolution.experiments.plan import Plan
+from evolution.experiments.plan_runner import PlanWatch
+from evolution.experiments.standing import Pace, Standing
 from evolution.runs.run import evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.standing import Pace, Standing
 
 FILE = """
 seeds = "1-2"

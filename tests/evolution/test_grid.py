@@ -8,13 +8,13 @@ import pytest
 
 from arm2d import Readings
 from evolution.cli import main
-from evolution.experiment_spec import MOST_RUNS
-from evolution.grid import read_experiment
-from evolution.plan import Plan
-from evolution.plan_file import read_plan, write_plan
+from evolution.experiments.grid import read_experiment
+from evolution.experiments.plan import Plan
+from evolution.experiments.plan_file import read_plan, write_plan
+from evolution.experiments.spec import MOST_RUNS
+from evolution.experiments.variants import variant_name
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.variants import variant_name
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from arm2d import Instruction, Readings
-from evolution.grid import experiment_from_mapping
+from evolution.experiments.grid import experiment_from_mapping
 from evolution.runs.arrays import UnreadableError, unpack_archive, unpack_array
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings

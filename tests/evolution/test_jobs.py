@@ -7,10 +7,10 @@ import time
 import pytest
 from small_runs import SMALL_FLAGS, contents
 
-from evolution import workers
-from evolution.jobs import MOST_RESTARTS, Watcher, finished_files, run_jobs
+from evolution.experiments import workers
+from evolution.experiments.jobs import MOST_RESTARTS, Watcher, finished_files, run_jobs
+from evolution.experiments.workers import Job
 from evolution.runs.folder import LOCK
-from evolution.workers import Job
 
 
 @pytest.fixture

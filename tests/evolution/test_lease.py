@@ -13,11 +13,11 @@ from dataclasses import asdict
 import pytest
 
 from evolution.cli import main
+from evolution.experiments.standing import is_held
 from evolution.runs import lease, lock
 from evolution.runs.folder import LEASE
 from evolution.runs.lease import EXIT_CODE, LAPSE, Holder, RunInUseError, leased
 from evolution.runs.lock import locked
-from evolution.standing import is_held
 
 ELSEWHERE = Holder(process=7, host="node12", kernel="another kernel", token="one")
 

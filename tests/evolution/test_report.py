@@ -18,7 +18,7 @@ from evolution.agents.solving import solved_trials
 from evolution.agents.subtasks import SUBTASKS
 from evolution.agents.transition_test import run_transition_test
 from evolution.analysis import analyse
-from evolution.experiment import open_experiment
+from evolution.experiments.experiment import open_experiment
 from evolution.notable import best_agent
 from evolution.recordings_for_web import compact
 from evolution.report import render, write_report

@@ -12,13 +12,13 @@ import pytest
 
 from arm2d import Condition, Readings
 from evolution.cli import main, parse
-from evolution.live_table import duration, plain_lines
-from evolution.plan import Plan, evolve_arguments, in_use
+from evolution.experiments.live_table import duration, plain_lines
+from evolution.experiments.plan import Plan, evolve_arguments, in_use
+from evolution.experiments.stage_times import FILE, stage_times
+from evolution.experiments.standing import Pace, Standing, is_held, standing_of, time_left
 from evolution.runs.lock import locked
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.stage_times import FILE, stage_times
-from evolution.standing import Pace, Standing, is_held, standing_of, time_left
 from evolution.torture.rounds import Torture, torture
 
 # Far from the paper, so that no stage takes long.

@@ -4,8 +4,8 @@ import pytest
 from small_runs import contents
 
 from arm2d import Condition
-from evolution.plan import Plan
-from evolution.plan_runner import run_plan
+from evolution.experiments.plan import Plan
+from evolution.experiments.plan_runner import run_plan
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 

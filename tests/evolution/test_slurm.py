@@ -6,8 +6,8 @@ import subprocess
 import pytest
 
 from evolution.cli import main, parse
-from evolution.cluster.slurm import SlurmOptions, job_script, read_options
 from evolution.commands import cluster_flags
+from evolution.experiments.cluster.slurm import SlurmOptions, job_script, read_options
 
 DRY = ["reproduce", "--slurm", "--dry-run"]
 

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from evolution.cli import answer, main
-from evolution.grid import read_experiment
-from evolution.plan_file import plan_text, read_plan
+from evolution.experiments.grid import read_experiment
+from evolution.experiments.plan_file import plan_text, read_plan
+from evolution.experiments.stage_times import stage_times
 from evolution.runs.lock import locked
 from evolution.runs.meta import read_meta
 from evolution.runs.storage import read_arrays
-from evolution.stage_times import stage_times
 from tests.fuzz import mutations
 from tests.fuzz.mutations import HOSTILE_TEXTS, mangled, mistaken_arrays, npy, sealed, toml_text
 from tests.fuzz.places import EXPERIMENT, FLAGS, Place

@@ -9,7 +9,7 @@ import numpy as np
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.agents.transition_test import run_transition_test
-from evolution.plan import Plan
+from evolution.experiments.plan import Plan
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import Watcher, evolve
 from evolution.search.config import RunConfig

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from evolution.experiment import open_experiment
-from evolution.plan import Plan
-from evolution.plan_file import read_plan
+from evolution.experiments.experiment import open_experiment
+from evolution.experiments.plan import Plan
+from evolution.experiments.plan_file import read_plan
+from evolution.experiments.standing import Standing, standing_of
 from evolution.runs.folder import CONFIG, RunFolder
-from evolution.standing import Standing, standing_of
 
 # One run; an experiment; an experiment with variants.
 LAYOUTS = (CONFIG, f"*/*/{CONFIG}", f"*/*/*/{CONFIG}")

@@ -15,10 +15,10 @@ from typing import Any, Final
 from distributed import Client, Future
 from distributed.versions import VersionMismatchWarning
 
-from evolution.cluster.agreement import Order, disagreement, fingerprint
-from evolution.cluster.tasks import perform, stop_jobs
+from evolution.experiments.cluster.agreement import Order, disagreement, fingerprint
+from evolution.experiments.cluster.tasks import perform, stop_jobs
+from evolution.experiments.workers import Job
 from evolution.runs.storage import make_folder
-from evolution.workers import Job
 
 ANSWER_TIME: Final = 10.0  # [s] for a scheduler to answer
 RETRY_INTERVAL: Final = 5.0  # [s] between two attempts to find it again

@@ -16,7 +16,7 @@ from typing import Final
 from evolution.agents import postevaluation, transition_test
 from evolution.agents.postevaluation import late_spans
 from evolution.agents.solving import FILE as SOLVED
-from evolution.experiment import state_of
+from evolution.experiments.experiment import state_of
 from evolution.runs.folder import CHAMPIONS, CONFIG, GENERATIONS_PER_PART, LOCK, RunFolder
 from evolution.runs.lease import held_elsewhere
 from evolution.runs.storage import DamagedFileError

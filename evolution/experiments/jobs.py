@@ -15,8 +15,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Protocol
 
+from evolution.experiments.workers import BAD_INPUT, ColdStart, Ended, Job, Worker
 from evolution.runs.folder import CHECKPOINT
-from evolution.workers import BAD_INPUT, ColdStart, Ended, Job, Worker
 
 MOST_RESTARTS: Final = 3  # without progress
 POLL_INTERVAL: Final = 0.1  # [s]

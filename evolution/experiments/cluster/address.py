@@ -8,7 +8,7 @@ from distributed import Client
 from distributed.comm.addressing import parse_address
 from distributed.comm.registry import backends
 
-from evolution.cluster.connection import Connection
+from evolution.experiments.cluster.connection import Connection
 
 
 def connected(address: str, folder: Path) -> Connection:

@@ -14,7 +14,7 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from evolution.standing import Pace, Standing, time_left
+from evolution.experiments.standing import Pace, Standing, time_left
 
 # Seconds between two redrawings of the table, and between two groups of plain lines.
 LIVE_INTERVAL: Final = 1.0

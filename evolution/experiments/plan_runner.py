@@ -10,17 +10,17 @@ from dataclasses import replace
 
 from rich.console import Console
 
-from evolution.jobs import Failure, Start, Watcher, run_jobs
-from evolution.live_table import shown_table
-from evolution.plan import LOGS, Plan, in_use
-from evolution.plan_file import write_plan
+from evolution.experiments.jobs import Failure, Start, Watcher, run_jobs
+from evolution.experiments.live_table import shown_table
+from evolution.experiments.plan import LOGS, Plan, in_use
+from evolution.experiments.plan_file import write_plan
+from evolution.experiments.stage_times import note_time
+from evolution.experiments.standing import Pace, Standing, pace_of
+from evolution.experiments.warm_workers import WarmStart
+from evolution.experiments.workers import Ended, Job
 from evolution.runs.folder import RunFolder
 from evolution.runs.interrupt import StopRequest
 from evolution.search.config import RunConfig
-from evolution.stage_times import note_time
-from evolution.standing import Pace, Standing, pace_of
-from evolution.warm_workers import WarmStart
-from evolution.workers import Ended, Job
 
 
 def run_plan(

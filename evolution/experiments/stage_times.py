@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from evolution.workers import Ended, Job
+from evolution.experiments.workers import Ended, Job
 
 FILE: Final = "times.csv"
 COLUMNS: Final = ("stage", "run", "exit_code", "wall_s", "cpu_s", "peak_mb")

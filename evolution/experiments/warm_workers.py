@@ -16,9 +16,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from evolution.fork_server import LARGEST_MESSAGE
+from evolution.experiments.fork_server import LARGEST_MESSAGE
+from evolution.experiments.workers import LOST, Ended, Job, Worker
 from evolution.runs.storage import make_folder
-from evolution.workers import LOST, Ended, Job, Worker
 
 
 class WarmStart:
@@ -113,7 +113,7 @@ class _Server:
         self._socket, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs, log.open("ab") as output:
             self._process = subprocess.Popen(  # noqa: S603 - our own program
-                [sys.executable, "-m", "evolution.fork_server", str(theirs.fileno())],
+                [sys.executable, "-m", "evolution.experiments.fork_server", str(theirs.fileno())],
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=subprocess.STDOUT,

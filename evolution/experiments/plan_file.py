@@ -13,12 +13,12 @@ from typing import Any, Final
 import tomli_w
 
 from arm2d import Condition, Readings
-from evolution.plan import Plan
+from evolution.experiments.plan import Plan
+from evolution.experiments.variants import check_name
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.search.config import FORMAT, RunConfig
 from evolution.search.settings import Settings
 from evolution.search.toml import read_toml
-from evolution.variants import check_name
 
 FILE: Final = "plan.toml"
 # A hundred thousand seeds, one a line.

@@ -1,4 +1,4 @@
-"""Chains of jobs on a Dask cluster, by the rules of `evolution.jobs`."""
+"""Chains of jobs on a Dask cluster, by the rules of `evolution.experiments.jobs`."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from typing import Final
 
 from distributed import Future, KilledWorker
 
-from evolution.cluster.connection import Connection
-from evolution.cluster.tasks import STOPPED, Outcome
-from evolution.jobs import Failure, Watcher, run_jobs
-from evolution.workers import Ended, Job, Worker
+from evolution.experiments.cluster.connection import Connection
+from evolution.experiments.cluster.tasks import STOPPED, Outcome
+from evolution.experiments.jobs import Failure, Watcher, run_jobs
+from evolution.experiments.workers import Ended, Job, Worker
 
 FETCH_TIME: Final = 5.0  # [s]
 
@@ -22,7 +22,7 @@ FETCH_TIME: Final = 5.0  # [s]
 def run_jobs_on(
     connection: Connection, chains: Sequence[Sequence[Job]], watcher: Watcher | None = None
 ) -> tuple[Failure, ...]:
-    """Run chains of jobs as `evolution.jobs.run_jobs` does, on whatever workers the cluster has.
+    """Run chains of jobs as `evolution.experiments.jobs.run_jobs` does, on whatever workers the cluster has.
 
     A worker that dies costs what its jobs had not yet written; they go on elsewhere. So does a scheduler: its
     tasks are handed out anew when it is back.

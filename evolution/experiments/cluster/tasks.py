@@ -14,9 +14,9 @@ from typing import Final
 
 from distributed import get_worker
 
-from evolution.cluster.agreement import Order, disagreement
-from evolution.plan import in_use
-from evolution.workers import Ended, Job, Worker
+from evolution.experiments.cluster.agreement import Order, disagreement
+from evolution.experiments.plan import in_use
+from evolution.experiments.workers import Ended, Job, Worker
 
 POLL_INTERVAL: Final = 0.1  # [s]
 # Between two looks at a run that a process left over elsewhere still holds [s].
@@ -48,7 +48,7 @@ class LeashedWorker(Worker):
     def _begin(self) -> None:
         with self.job.log.open("ab") as log:
             self._process = subprocess.Popen(  # noqa: S603 - our own program
-                [sys.executable, "-m", "evolution.cluster.leash", *self.job.arguments],
+                [sys.executable, "-m", "evolution.experiments.cluster.leash", *self.job.arguments],
                 stdin=subprocess.PIPE,
                 stdout=log,
                 stderr=subprocess.STDOUT,

@@ -6,12 +6,12 @@ import math
 import time
 from typing import Final
 
-from evolution.plan import Plan
+from evolution.experiments.plan import Plan
+from evolution.experiments.standing import TESTS_PER_EVOLUTION, Pace, size_of
 from evolution.runs.folder import GENERATIONS_PER_PART
 from evolution.search.config import RunConfig
 from evolution.search.population import first_population, next_population
 from evolution.search.scoring import score_population
-from evolution.standing import TESTS_PER_EVOLUTION, Pace, size_of
 
 GENERATIONS: Final = 5
 # An evolved population takes that many times as long as a random one (python -m benchmarks.kernel).

@@ -15,13 +15,13 @@ from pathlib import Path
 from typing import Any, Final
 
 from arm2d import Condition, Readings
-from evolution.experiment_spec import ExperimentSpec, check_size
-from evolution.plan import World
+from evolution.experiments.plan import World
+from evolution.experiments.seeds import read_seeds
+from evolution.experiments.spec import ExperimentSpec, check_size
+from evolution.experiments.variants import check_name, value_name, variant_name
 from evolution.search.settings import Settings
 from evolution.search.toml import read_toml
 from evolution.search.toml_keys import check_keys, one_of_kind, table_of
-from evolution.seeds import read_seeds
-from evolution.variants import check_name, value_name, variant_name
 
 KEYS: Final = (
     "output", "jobs", "conditions", "seeds", "preset", "post_evaluate", "settings", "readings", "variant",

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Condition
-from evolution.plan import Plan, World
+from evolution.experiments.plan import Plan, World
+from evolution.experiments.variants import check_name
 from evolution.search.config import RunConfig
-from evolution.variants import check_name
 
 MOST_RUNS: Final = 100_000
 

@@ -15,13 +15,13 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Readings
+from evolution.experiments.standing import Pace, Standing, pace_of, standing_of
+from evolution.experiments.variants import common_settings, variant_name
+from evolution.experiments.workers import Job
 from evolution.runs.folder import CONFIG, RunFolder, refuse_other
 from evolution.runs.lock import RunInUseError, locked
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.standing import Pace, Standing, pace_of, standing_of
-from evolution.variants import common_settings, variant_name
-from evolution.workers import Job
 
 LOGS: Final = "logs"
 EVOLVING: Final = "evolving"

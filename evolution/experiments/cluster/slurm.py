@@ -18,7 +18,7 @@ from dask_jobqueue.slurm import SLURMCluster, SLURMJob
 from distributed import Client
 from distributed.security import Security
 
-from evolution.cluster.connection import Connection
+from evolution.experiments.cluster.connection import Connection
 from evolution.runs.storage import make_folder
 
 # What a run holds at most, and a worker that watches over runs [MB], with room to spare; see docs/cluster.md.
