@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 from arm2d import Condition
 from evolution.agents.classes import Observation, Sampling, read_observation
 from evolution.agents.subtasks import AgentClass
-from evolution.class_results import ClassBehaviour, class_behaviours, class_rows, run_class_rows
 from evolution.figures import save_figure
 from evolution.figures_classes import Behaviours, classes_figure
 from evolution.figures_fans import fans_figure
 from evolution.result_rows import to_csv
-from evolution.results import Results
+from evolution.results.classes import ClassBehaviour, class_behaviours, class_rows, run_class_rows
+from evolution.results.records import Results
 from evolution.runs.folder import RunFolder
 from evolution.runs.storage import make_folder, write_atomically
 

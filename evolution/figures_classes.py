@@ -18,10 +18,10 @@ from evolution.agents.classes import PARTS
 from evolution.agents.events import WINDOWS
 from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass
-from evolution.class_results import ClassBehaviour
 from evolution.figures_generalisers import CLASS_COLOURS
 from evolution.figures_neurons import SHARE_COLOURS, SHARE_LABELS
-from evolution.report_text import TITLES
+from evolution.results.classes import ClassBehaviour
+from evolution.results.wording import TITLES
 from evolution.style import FAINT, STYLE
 
 Behaviours = Mapping[Condition, Mapping[AgentClass, ClassBehaviour]]

@@ -15,7 +15,7 @@ from arm2d import Condition
 from arm2d.drawing import INK
 from evolution.agents.subtasks import SUBTASKS
 from evolution.figures_classes import SHORT
-from evolution.key_numbers import (
+from evolution.results.key_numbers import (
     AT_LIMIT,
     PLATEAU,
     SOLVED,
@@ -25,9 +25,9 @@ from evolution.key_numbers import (
     pass_name,
     top_name,
 )
-from evolution.published import LARGEST_FITNESS
-from evolution.report_text import TITLES
-from evolution.results import Results
+from evolution.results.published import LARGEST_FITNESS
+from evolution.results.records import Results
+from evolution.results.wording import TITLES
 from evolution.style import FAINT, STYLE
 
 PAPER: Final = "#8A857A"

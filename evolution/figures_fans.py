@@ -14,9 +14,9 @@ from arm2d.constants import DT
 from evolution.agents.behaviour import record_behaviour
 from evolution.agents.classes import Sampling
 from evolution.agents.subtasks import AgentClass
-from evolution.class_results import ClassBehaviour
 from evolution.figures_behaviour import draw_alpha, draw_beta, head, trajectory_handles
-from evolution.report_text import TITLES
+from evolution.results.classes import ClassBehaviour
+from evolution.results.wording import TITLES
 from evolution.runs.recorded import recorded_generation
 from evolution.style import FAINT, STYLE
 

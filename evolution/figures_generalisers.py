@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from arm2d.drawing import INK
 from evolution.agents.subtasks import AgentClass, classify
-from evolution.generalisers import Generalisers
-from evolution.report_text import TITLES
-from evolution.results import ConditionResults, Results
+from evolution.results.generalisers import Generalisers
+from evolution.results.records import ConditionResults, Results
+from evolution.results.wording import TITLES
 from evolution.search.settings import N_BEST
 from evolution.style import FAINT, STYLE
 

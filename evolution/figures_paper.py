@@ -1,6 +1,6 @@
 """The paper's figures from our runs: Fig. 3, Table II as bars, Fig. 4 (section VII).
 
-One function per figure; they draw what `evolution.analysis` has computed.
+One function per figure; they draw what `evolution.results.analysis` has computed.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from arm2d.drawing import INK
-from evolution import published
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS
 from evolution.agents.transitions import Transition, action_transitions, object_transitions
 from evolution.figures import running_median
 from evolution.figures_generalisers import CLASS_COLOURS, generalisers_figure
-from evolution.report_text import TITLES
-from evolution.results import ConditionResults, Results
+from evolution.results import published
+from evolution.results.records import ConditionResults, Results
+from evolution.results.wording import TITLES
 from evolution.style import FAINT, STYLE
 
 # From pale sand (never) to deep teal (nearly always), lightness falling evenly.

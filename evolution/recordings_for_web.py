@@ -13,7 +13,7 @@ import numpy as np
 
 from arm2d import TrialRecord
 from evolution.agents.recording import record_instruction
-from evolution.notable import Agent
+from evolution.results.notable import Agent
 from evolution.runs.sources import find_source
 
 AREAS: Final = ("right", "left")

@@ -1,6 +1,6 @@
 """The page that shows an experiment: one HTML file that needs nothing else, not even a network.
 
-All numbers come from `evolution.analysis`; here they become text, tables and pictures, and a template
+All numbers come from `evolution.results.analysis`; here they become text, tables and pictures, and a template
 (report_template.html) arranges them. The same experiment gives the same page.
 """
 
@@ -27,16 +27,16 @@ from evolution.experiments.stage_times import stage_times
 from evolution.experiments.standing import standing_of
 from evolution.figures import SUCCESS_MAP
 from evolution.figures_paper import all_figures
-from evolution.generaliser_text import generalisers_sentence
-from evolution.notable import Agent, best_agent
 from evolution.recordings_for_web import recordings_of
 from evolution.report_configuration import readings_rows, settings_rows, versions_rows
 from evolution.report_figures import figure_uri, file_uri
 from evolution.report_lines import main_lines
 from evolution.report_sentences import result_sentences, standing_of_best
 from evolution.report_tables import category_tables, comparison_rows, departures_in_size, run_rows
-from evolution.report_text import TITLES
-from evolution.results import ConditionResults, Results
+from evolution.results.generaliser_text import generalisers_sentence
+from evolution.results.notable import Agent, best_agent
+from evolution.results.records import ConditionResults, Results
+from evolution.results.wording import TITLES
 from evolution.runs.storage import make_folder, write_atomically
 
 TEMPLATE: Final = "report_template.html"

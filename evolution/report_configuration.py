@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 
 from arm2d import Readings
-from evolution.results import Results
+from evolution.results.records import Results
 from evolution.runs import meta
 from evolution.runs.folder import META
 

@@ -9,11 +9,11 @@ from typing import Final
 import numpy as np
 
 from arm2d import Condition
-from evolution import published
 from evolution.agents.subtasks import SUBTASKS, AgentClass
-from evolution.generaliser_text import longest_spell, rank_of_generalisers
-from evolution.report_text import NOT_GIVEN, Line, of, percent
-from evolution.results import ConditionResults, Results
+from evolution.results import published
+from evolution.results.generaliser_text import longest_spell, rank_of_generalisers
+from evolution.results.records import ConditionResults, Results
+from evolution.results.wording import NOT_GIVEN, Line, of, percent
 
 SUBTASK_WORDS: Final = MappingProxyType(
     {

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from arm2d import NON_EXPERIENCED, Condition
-from evolution import published
 from evolution.agents.postevaluation import TRIALS
 from evolution.agents.subtasks import AgentClass
-from evolution.notable import best_agent
 from evolution.report_lines import runs_with_generalisers
-from evolution.report_text import TITLES, of, p_value, percent
-from evolution.results import ConditionResults, Results
+from evolution.results import published
+from evolution.results.notable import best_agent
+from evolution.results.records import ConditionResults, Results
+from evolution.results.wording import TITLES, of, p_value, percent
 
 # A difference whose p-value is smaller is called one.
 LEVEL = 0.05

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from evolution import published
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
-from evolution.report_text import TITLES, Line, p_value, percent, points
-from evolution.results import Results
+from evolution.results import published
+from evolution.results.records import Results
+from evolution.results.wording import TITLES, Line, p_value, percent, points
 from evolution.search.settings import Settings
 
 

@@ -8,8 +8,8 @@ from evolution.agents.classes import Sampling, observation_path
 from evolution.agents.subtasks import AgentClass
 from evolution.experiments.plan import LOGS
 from evolution.experiments.workers import Job
-from evolution.notable import best_agent
-from evolution.results import Results
+from evolution.results.notable import best_agent
+from evolution.results.records import Results
 
 
 def agent_chains(results: Results, folder: Path) -> list[list[Job]]:

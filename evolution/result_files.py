@@ -6,10 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from evolution.analysis import interval_of_mean
 from evolution.figures import save_figure
 from evolution.figures_paper import all_figures
-from evolution.generaliser_text import generalisers_sentence
 from evolution.result_rows import (
     generaliser_rows,
     genotype_rows,
@@ -19,7 +17,9 @@ from evolution.result_rows import (
     to_csv,
     transition_rows,
 )
-from evolution.results import ConditionResults, Results
+from evolution.results.analysis import interval_of_mean
+from evolution.results.generaliser_text import generalisers_sentence
+from evolution.results.records import ConditionResults, Results
 from evolution.runs.storage import make_folder, write_arrays, write_atomically
 
 

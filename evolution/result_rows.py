@@ -8,10 +8,10 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from evolution import published
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
-from evolution.generalisers import CHANCE_RANK
-from evolution.results import Results
+from evolution.results import published
+from evolution.results.generalisers import CHANCE_RANK
+from evolution.results.records import Results
 from evolution.search.settings import N_BEST
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from evolution.results import FITNESS_LIMIT, PLATEAU_TOLERANCE
-from evolution.statistics import sign_flip_test
+from evolution.results.records import FITNESS_LIMIT, PLATEAU_TOLERANCE
+from evolution.results.statistics import sign_flip_test
 
 DOCS = Path(__file__).parents[1] / "docs"
 PAGE = (DOCS / "readings.md").read_text(encoding="utf-8")

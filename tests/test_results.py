@@ -7,9 +7,9 @@ import pytest
 
 from arm2d import Condition
 from evolution.agents.subtasks import categories, count_table
+from evolution.results.statistics import wilcoxon_as_published
 from evolution.runs.sources import SHIPPED, find_source
 from evolution.search.evaluation import evaluate
-from evolution.statistics import wilcoxon_as_published
 
 ROOT = Path(__file__).parents[1] / "docs"
 PAGE = (ROOT / "results.md").read_text(encoding="utf-8")

@@ -20,9 +20,9 @@ class Analyse:
 
     def run(self) -> int:
         """Analyse, write and print."""
-        from evolution.analysis import analyse
         from evolution.experiments.experiment import open_experiment
         from evolution.result_files import summary, write_results
+        from evolution.results.analysis import analyse
 
         results = analyse(open_experiment(self.experiment))
         for path in write_results(results, self.output or self.experiment / "results"):

@@ -50,8 +50,8 @@ class Classes:
         from evolution.agents.classes import Sampling, observe
         from evolution.class_files import behaviours_of, write_classes
         from evolution.experiments.experiment import open_experiment
+        from evolution.results.tested_runs import name_of, unfinished
         from evolution.runs.lock import locked
-        from evolution.tested_runs import name_of, unfinished
 
         sampling, console = Sampling(self.agents, self.trials_per_area, self.trial_seed), Console()
         observed = []
@@ -81,7 +81,7 @@ def _table(behaviours: Behaviours) -> Table:
 
     from evolution.agents.lesions import LESIONS
     from evolution.figures_classes import SHORT
-    from evolution.report_text import TITLES
+    from evolution.results.wording import TITLES
 
     table = Table(
         "condition", "class", "agents", "runs",

@@ -11,7 +11,7 @@ from tyro.conf import Positional
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from evolution.results import Results
+    from evolution.results.records import Results
 
 
 @dataclass(frozen=True)
@@ -28,12 +28,12 @@ class Compare:
         """Analyse each, write and print."""
         from rich.console import Console
 
-        from evolution.analysis import analyse
         from evolution.experiments.experiment import open_experiment
         from evolution.figures import save_figure
         from evolution.figures_compare import compare_figure
-        from evolution.key_numbers import comparison_rows, departures
         from evolution.result_rows import to_csv
+        from evolution.results.analysis import analyse
+        from evolution.results.key_numbers import comparison_rows, departures
         from evolution.runs.storage import make_folder, write_atomically
 
         console = Console(soft_wrap=True, highlight=False)
@@ -71,8 +71,8 @@ def _table(results: dict[str, Results]) -> Table:
     """The same as comparison.csv, for people."""
     from rich.table import Table
 
-    from evolution.key_numbers import AT_LIMIT, PLATEAU, SOLVED, WITH_FULL, by_condition
-    from evolution.report_text import TITLES, of, percent
+    from evolution.results.key_numbers import AT_LIMIT, PLATEAU, SOLVED, WITH_FULL, by_condition
+    from evolution.results.wording import TITLES, of, percent
 
     table = Table("condition", "number", "published", *results)
     plain = {AT_LIMIT, SOLVED, WITH_FULL}

@@ -20,9 +20,9 @@ class Report:
 
     def run(self) -> int:
         """Analyse, write and print the path."""
-        from evolution.analysis import analyse
         from evolution.experiments.experiment import open_experiment
         from evolution.report import write_report
+        from evolution.results.analysis import analyse
 
         results = analyse(open_experiment(self.experiment))
         print(write_report(results, self.output or self.experiment / "report.html"))

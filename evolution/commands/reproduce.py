@@ -18,7 +18,7 @@ from evolution.search.settings import Settings
 if TYPE_CHECKING:
     from evolution.experiments.jobs import Failure
     from evolution.experiments.plan import Plan
-    from evolution.results import Results
+    from evolution.results.records import Results
     from evolution.runs.interrupt import StopRequest
 
 MOST_RUNS: Final = 10_000
@@ -104,10 +104,10 @@ class Reproduce:
 
 def _analyse(folder: Path) -> Results:
     """The results, their tables and figures written into `results`."""
-    from evolution.analysis import analyse
     from evolution.experiments.experiment import open_experiment
     from evolution.experiments.stage_times import timed
     from evolution.result_files import summary, write_results
+    from evolution.results.analysis import analyse
 
     print("analysing all runs", flush=True)
     with timed(folder, "analysing"):

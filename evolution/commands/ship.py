@@ -20,9 +20,9 @@ class Ship:
 
     def run(self) -> int:
         """Choose, write and print."""
-        from evolution.analysis import analyse
         from evolution.experiments.experiment import open_experiment
-        from evolution.shipping import ship
+        from evolution.results.analysis import analyse
+        from evolution.results.shipping import ship
 
         for path in ship(analyse(open_experiment(self.experiment)), self.output):
             print(path)

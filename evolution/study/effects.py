@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings
-from evolution.statistics import sign_flip_test
+from evolution.results.statistics import sign_flip_test
 from evolution.study.measures import RunMeasures
 from evolution.study.table import VariantMeasures, interval
 

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from arm2d import Condition
 from arm2d.drawing import INK
-from evolution import published
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.figures import FAINT, STYLE, SUCCESS_MAP
+from evolution.results import published
 from evolution.study.table import AREAS, VariantMeasures, interval
 
 DEFAULT: Final = "default"

@@ -16,8 +16,8 @@ from arm2d import draw_trials, run_trials
 from evolution.agents.postevaluation import N_INSTRUCTIONS, best_genotypes, late_spans
 from evolution.agents.solving import solved_trials
 from evolution.agents.subtasks import AgentClass, categories, classify
-from evolution.analysis import PLATEAU_SHARE
-from evolution.results import FITNESS_LIMIT, PLATEAU_TOLERANCE
+from evolution.results.analysis import PLATEAU_SHARE
+from evolution.results.records import FITNESS_LIMIT, PLATEAU_TOLERANCE
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History, check_array
 from evolution.runs.storage import DamagedFileError, make_folder

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Instruction
-from evolution import published
 from evolution.agents.subtasks import SUBTASKS, AgentClass
+from evolution.results import published
+from evolution.results.statistics import mean_interval, midranks
 from evolution.search.randomness import Purpose, generator
-from evolution.statistics import mean_interval, midranks
 from evolution.study.measures import RunMeasures
 
 AREAS: Final = ("right", "left")

@@ -13,8 +13,8 @@ from evolution.agents.lesions import lesion_scores
 from evolution.agents.postevaluation import late_history, post_evaluate
 from evolution.agents.subtasks import AgentClass
 from evolution.class_files import behaviours_of, class_figures, write_classes
-from evolution.class_results import class_behaviours, measures
 from evolution.cli import main
+from evolution.results.classes import class_behaviours, measures
 from evolution.runs.folder import RunFolder
 from evolution.runs.storage import DamagedFileError
 

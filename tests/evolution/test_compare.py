@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, Readings
-from evolution import published
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.transition_test import run_transition_test
-from evolution.analysis import analyse
 from evolution.cli import main
 from evolution.experiments.experiment import open_experiment
 from evolution.figures_compare import compare_figure
-from evolution.key_numbers import AT_LIMIT, PLATEAU, by_condition, departures, key_numbers, top_name
+from evolution.results import published
+from evolution.results.analysis import analyse
+from evolution.results.key_numbers import AT_LIMIT, PLATEAU, by_condition, departures, key_numbers, top_name
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import evolve
 from evolution.search.config import RunConfig

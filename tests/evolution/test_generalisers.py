@@ -6,16 +6,16 @@ from matplotlib.figure import Figure
 
 from evolution.agents.postevaluation import late_spans
 from evolution.figures_generalisers import draw_density, draw_marks
-from evolution.generalisers import (
+from evolution.results.generalisers import (
     generalisers_of,
     longest_line,
     mean_rank_against_chance,
     spell_lengths,
 )
+from evolution.results.statistics import sign_flip_test
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.search.algorithm import rank
-from evolution.statistics import sign_flip_test
 
 
 @pytest.fixture(scope="module")

@@ -16,18 +16,18 @@ from evolution.agents.postevaluation import (
 )
 from evolution.agents.solving import solved_trials
 from evolution.agents.transition_test import run_transition_test
-from evolution.analysis import analyse
 from evolution.cli import main, parse
 from evolution.experiments.experiment import open_experiment
 from evolution.figures_paper import all_figures
 from evolution.repair import repair
+from evolution.results.analysis import analyse
+from evolution.results.shipping import notable_agents, ship
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import evolve
 from evolution.runs.sources import find_source
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.shipping import notable_agents, ship
 
 SETTINGS = Settings(population=12, elites=2, parents=6, generations=9)
 

@@ -12,20 +12,20 @@ import pytest
 from matplotlib.figure import Figure
 
 from arm2d import Condition, Readings, draw_trials, record_trial
-from evolution import published
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.agents.subtasks import SUBTASKS
 from evolution.agents.transition_test import run_transition_test
-from evolution.analysis import analyse
 from evolution.experiments.experiment import open_experiment
-from evolution.notable import best_agent
 from evolution.recordings_for_web import compact
 from evolution.report import render, write_report
 from evolution.report_figures import file_uri
 from evolution.report_sentences import result_sentences
 from evolution.report_tables import comparison_rows, run_rows
-from evolution.report_text import p_value, percent
+from evolution.results import published
+from evolution.results.analysis import analyse
+from evolution.results.notable import best_agent
+from evolution.results.wording import p_value, percent
 from evolution.runs.run import evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from evolution.statistics import (
+from evolution.results.statistics import (
     bootstrap_interval,
     compare,
     mean_interval,

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from arm2d import NON_EXPERIENCED, Condition
-from evolution import published
 from evolution.agents.subtasks import AgentClass, categories, classify, count_table
+from evolution.results import published
 
 CONDITION = Condition.WITH_INDICATE
 TOUCH_GREEN, MOVE_BLUE = (CONDITION.instructions.index(each) for each in NON_EXPERIENCED)

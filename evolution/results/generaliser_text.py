@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from evolution.generalisers import CHANCE_RANK, Generalisers, mean_rank_against_chance
-from evolution.report_text import TITLES, of, p_value
-from evolution.results import ConditionResults
+from evolution.results.generalisers import CHANCE_RANK, Generalisers, mean_rank_against_chance
+from evolution.results.records import ConditionResults
+from evolution.results.wording import TITLES, of, p_value
 
 
 def generalisers_sentence(each: ConditionResults) -> str:

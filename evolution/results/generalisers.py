@@ -20,10 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evolution.agents.postevaluation import late_history
+from evolution.results.statistics import sign_flip_test
 from evolution.runs.folder import RunFolder
 from evolution.search.algorithm import rank as ranking
 from evolution.search.settings import N_BEST
-from evolution.statistics import sign_flip_test
 
 # Mean rank of an agent drawn at random from the five best, 0 for the best.
 CHANCE_RANK: Final = (N_BEST - 1) / 2

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED
 from evolution.agents.postevaluation import N_INSTRUCTIONS
-from evolution.results import ConditionResults
+from evolution.results.records import ConditionResults
 from evolution.runs.folder import RunFolder
 
 

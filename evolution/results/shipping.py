@@ -15,8 +15,8 @@ import numpy as np
 
 from arm2d import Condition
 from evolution.agents.postevaluation import TRIALS
-from evolution.notable import Agent, best_agent, best_specialist
-from evolution.results import Results
+from evolution.results.notable import Agent, best_agent, best_specialist
+from evolution.results.records import Results
 from evolution.runs.recorded import recorded_generation
 from evolution.runs.storage import make_folder, write_arrays
 

@@ -16,9 +16,9 @@ from evolution.agents.classes import CLASSES, PARTS, Observation, Sampling
 from evolution.agents.events import WINDOWS
 from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass
+from evolution.results.statistics import mean_interval
 from evolution.runs.folder import RunFolder
 from evolution.search.randomness import Purpose, generator
-from evolution.statistics import mean_interval
 
 INTACT = "intact"
 

@@ -18,15 +18,15 @@ from evolution.agents.postevaluation import N_INSTRUCTIONS, TRIALS
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS, AgentClass, categories, classify, count_table
 from evolution.agents.transition_test import CLASSES, TransitionTest
 from evolution.agents.transitions import passes
-from evolution.comparisons import compare_conditions
 from evolution.experiments.experiment import Experiment
-from evolution.generalisers import generalisers_of
-from evolution.results import ConditionResults, Results, TransitionOutcome
+from evolution.results.comparisons import compare_conditions
+from evolution.results.generalisers import generalisers_of
+from evolution.results.records import ConditionResults, Results, TransitionOutcome
+from evolution.results.statistics import mean_interval
+from evolution.results.tested_runs import TestedRun, read_tested_runs
 from evolution.runs.folder import RunFolder
 from evolution.search.randomness import Purpose, generator
 from evolution.search.settings import N_BEST
-from evolution.statistics import mean_interval
-from evolution.tested_runs import TestedRun, read_tested_runs
 
 # A run's plateau is its median best fitness over this last part of its generations.
 PLATEAU_SHARE: Final = 1 / 6

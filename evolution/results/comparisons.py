@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from arm2d import Condition
 from evolution.agents.postevaluation import N_INSTRUCTIONS
 from evolution.agents.subtasks import SUBTASKS, AgentClass, categories, classify
-from evolution.results import ConditionResults
+from evolution.results.records import ConditionResults
+from evolution.results.statistics import Comparison, compare, wilcoxon_as_published
 from evolution.search.randomness import Purpose, generator
-from evolution.statistics import Comparison, compare, wilcoxon_as_published
 
 
 def compare_conditions(

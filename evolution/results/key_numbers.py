@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings
-from evolution import published
 from evolution.agents.subtasks import SUBTASKS, AgentClass
-from evolution.results import ConditionResults, Results
+from evolution.results import published
+from evolution.results.records import ConditionResults, Results
 
 PLATEAU: Final = "plateau"
 AT_LIMIT: Final = "runs that end at 18/7"

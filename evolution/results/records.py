@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from arm2d import Condition
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.experiments.experiment import Experiment
-from evolution.generalisers import Generalisers
+from evolution.results.generalisers import Generalisers
+from evolution.results.statistics import Comparison
 from evolution.runs.folder import RunFolder
 from evolution.search.settings import N_BEST
-from evolution.statistics import Comparison
 
 # Runs whose plateau comes so near to 18/7 count as having reached the paper's 2.57.
 PLATEAU_TOLERANCE: Final = 0.02
