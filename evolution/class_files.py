@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 from arm2d import Condition
 from evolution.agents.classes import Observation, Sampling, read_observation
 from evolution.agents.subtasks import AgentClass
-from evolution.figures import save_figure
-from evolution.figures_classes import Behaviours, classes_figure
-from evolution.figures_fans import fans_figure
+from evolution.figures.classes import Behaviours, classes_figure
+from evolution.figures.fans import fans_figure
+from evolution.figures.run import save_figure
 from evolution.result_rows import to_csv
 from evolution.results.classes import ClassBehaviour, class_behaviours, class_rows, run_class_rows
 from evolution.results.records import Results

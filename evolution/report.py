@@ -25,8 +25,8 @@ from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.class_files import behaviours_kept, class_figures
 from evolution.experiments.stage_times import stage_times
 from evolution.experiments.standing import standing_of
-from evolution.figures import SUCCESS_MAP
-from evolution.figures_paper import all_figures
+from evolution.figures.paper import all_figures
+from evolution.figures.run import SUCCESS_MAP
 from evolution.recordings_for_web import recordings_of
 from evolution.report_configuration import readings_rows, settings_rows, versions_rows
 from evolution.report_figures import figure_uri, file_uri

@@ -10,7 +10,7 @@ from typing import Final
 from matplotlib.figure import Figure
 from PIL import Image
 
-from evolution.drawings import png_bytes, shortened, svg_bytes
+from evolution.figures.page import png_bytes, shortened, svg_bytes
 
 # Drawings up to this size stay drawings [bytes]; of larger ones the page shows whichever is smaller,
 # drawing or pixels, so that it stays a few megabytes with a dozen dense figures in it.

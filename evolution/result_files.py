@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from evolution.figures import save_figure
-from evolution.figures_paper import all_figures
+from evolution.figures.paper import all_figures
+from evolution.figures.run import save_figure
 from evolution.result_rows import (
     generaliser_rows,
     genotype_rows,

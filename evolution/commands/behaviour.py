@@ -62,10 +62,10 @@ def _write(
     output: Path,
 ) -> list[Path]:
     """Write figures and arrays; their paths."""
-    from evolution.figures import save_figure
-    from evolution.figures_behaviour import lesions_figure, trajectories_figure
-    from evolution.figures_neurons import activity_figure, variance_figure
-    from evolution.figures_states import state_space_figure
+    from evolution.figures.behaviour import lesions_figure, trajectories_figure
+    from evolution.figures.neurons import activity_figure, variance_figure
+    from evolution.figures.run import save_figure
+    from evolution.figures.states import state_space_figure
     from evolution.runs.storage import make_folder, write_arrays
 
     make_folder(output)

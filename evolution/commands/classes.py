@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
     from rich.table import Table
 
-    from evolution.figures_classes import Behaviours
+    from evolution.figures.classes import Behaviours
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def _table(behaviours: Behaviours) -> Table:
     from rich.table import Table
 
     from evolution.agents.lesions import LESIONS
-    from evolution.figures_classes import SHORT
+    from evolution.figures.classes import SHORT
     from evolution.results.wording import TITLES
 
     table = Table(

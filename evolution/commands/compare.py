@@ -29,8 +29,8 @@ class Compare:
         from rich.console import Console
 
         from evolution.experiments.experiment import open_experiment
-        from evolution.figures import save_figure
-        from evolution.figures_compare import compare_figure
+        from evolution.figures.compare import compare_figure
+        from evolution.figures.run import save_figure
         from evolution.result_rows import to_csv
         from evolution.results.analysis import analyse
         from evolution.results.key_numbers import comparison_rows, departures

@@ -53,7 +53,7 @@ class Evaluate(AgentCommand):
 
 def _write(source: Source, result: Evaluation, folder: Path) -> list[Path]:
     """Write figures and tables; their paths."""
-    from evolution.figures import heat_map, save_figure
+    from evolution.figures.run import heat_map, save_figure
     from evolution.runs.storage import make_folder, write_atomically
     from evolution.tables import to_csv, to_json
 

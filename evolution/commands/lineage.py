@@ -72,8 +72,8 @@ class LineageCommand:
 def _write(folder: RunFolder, lineage: Lineage, scores: LineageScores, rank: int, output: Path) -> list[Path]:
     """Write figure and arrays; their paths."""
     from evolution.agents.innovations import lineage_arrays
-    from evolution.figures import save_figure
-    from evolution.figures_lineage import lineage_figure
+    from evolution.figures.lineage import lineage_figure
+    from evolution.figures.run import save_figure
     from evolution.runs.storage import make_folder, write_arrays
 
     make_folder(output)

@@ -14,9 +14,9 @@ from arm2d.arithmetic import sigmoid
 from evolution.agents.behaviour import draw_behaviour_trials, record_behaviour
 from evolution.agents.events import events_of, shares_by_event
 from evolution.cli import main
-from evolution.figures_behaviour import trajectories_figure
-from evolution.figures_neurons import activity_figure, variance_figure
-from evolution.figures_states import principal_plane, state_space_figure
+from evolution.figures.behaviour import trajectories_figure
+from evolution.figures.neurons import activity_figure, variance_figure
+from evolution.figures.states import principal_plane, state_space_figure
 from evolution.runs.storage import read_arrays
 
 INDICATE = Condition.WITH_INDICATE

@@ -12,7 +12,7 @@ from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.transition_test import run_transition_test
 from evolution.cli import main
 from evolution.experiments.experiment import open_experiment
-from evolution.figures_compare import compare_figure
+from evolution.figures.compare import compare_figure
 from evolution.results import published
 from evolution.results.analysis import analyse
 from evolution.results.key_numbers import AT_LIMIT, PLATEAU, by_condition, departures, key_numbers, top_name

@@ -13,8 +13,8 @@ from matplotlib.image import imread
 from arm2d import Condition
 from evolution.agents.lineage_scores import LineageScores, Skills
 from evolution.cli import main
-from evolution.drawings import LARGEST_DRAWING, png_bytes, shortened, svg_bytes
-from evolution.figures_lineage import lineage_figure
+from evolution.figures.lineage import lineage_figure
+from evolution.figures.page import LARGEST_DRAWING, png_bytes, shortened, svg_bytes
 
 DOCS = Path(__file__).parents[2] / "docs"
 LIMIT = 500_000

@@ -7,7 +7,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from arm2d import Condition, Readings
-from evolution.figures import (
+from evolution.figures.run import (
     draw_fitness_curve,
     draw_heat_map,
     fitness_curve,

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from evolution.agents.postevaluation import late_spans
-from evolution.figures_generalisers import draw_density, draw_marks
+from evolution.figures.generalisers import draw_density, draw_marks
 from evolution.results.generalisers import (
     generalisers_of,
     longest_line,

@@ -4,7 +4,7 @@ import pytest
 from arm2d import ActionWord, Condition, Instruction, ObjectWord, Readings, reference, run_trials
 from evolution.agents.behaviour import draw_behaviour_trials, record_behaviour
 from evolution.agents.lesions import LESIONS, Lesion, lesion_scores, lesioned_trials
-from evolution.figures_behaviour import lesions_figure
+from evolution.figures.behaviour import lesions_figure
 
 INDICATE = Condition.WITH_INDICATE
 READINGS = Readings()

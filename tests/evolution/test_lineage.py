@@ -6,7 +6,7 @@ from evolution.agents.innovations import innovations, lineage_arrays
 from evolution.agents.lineage import ancestor_indices, trace_lineage
 from evolution.agents.lineage_scores import Skills, longest_bent_stay, offsets, score_lineage
 from evolution.cli import main
-from evolution.figures_lineage import lineage_figure
+from evolution.figures.lineage import lineage_figure
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.replay import population_at

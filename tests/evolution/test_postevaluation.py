@@ -18,7 +18,7 @@ from evolution.agents.solving import solved_trials
 from evolution.agents.transition_test import run_transition_test
 from evolution.cli import main, parse
 from evolution.experiments.experiment import open_experiment
-from evolution.figures_paper import all_figures
+from evolution.figures.paper import all_figures
 from evolution.repair import repair
 from evolution.results.analysis import analyse
 from evolution.results.shipping import notable_agents, ship

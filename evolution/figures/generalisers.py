@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 from arm2d.drawing import INK
 from evolution.agents.subtasks import AgentClass, classify
+from evolution.figures.style import FAINT, STYLE
 from evolution.results.generalisers import Generalisers
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES
 from evolution.search.settings import N_BEST
-from evolution.style import FAINT, STYLE
 
 FULL_COLOUR: Final = "#B0296F"
 PARTIAL_COLOUR: Final = "#E69F00"

@@ -18,11 +18,11 @@ from evolution.agents.classes import PARTS
 from evolution.agents.events import WINDOWS
 from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass
-from evolution.figures_generalisers import CLASS_COLOURS
-from evolution.figures_neurons import SHARE_COLOURS, SHARE_LABELS
+from evolution.figures.generalisers import CLASS_COLOURS
+from evolution.figures.neurons import SHARE_COLOURS, SHARE_LABELS
+from evolution.figures.style import FAINT, STYLE
 from evolution.results.classes import ClassBehaviour
 from evolution.results.wording import TITLES
-from evolution.style import FAINT, STYLE
 
 Behaviours = Mapping[Condition, Mapping[AgentClass, ClassBehaviour]]
 

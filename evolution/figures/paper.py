@@ -18,12 +18,12 @@ from matplotlib.patches import Patch
 from arm2d.drawing import INK
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS
 from evolution.agents.transitions import Transition, action_transitions, object_transitions
-from evolution.figures import running_median
-from evolution.figures_generalisers import CLASS_COLOURS, generalisers_figure
+from evolution.figures.generalisers import CLASS_COLOURS, generalisers_figure
+from evolution.figures.run import running_median
+from evolution.figures.style import FAINT, STYLE
 from evolution.results import published
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES
-from evolution.style import FAINT, STYLE
 
 # From pale sand (never) to deep teal (nearly always), lightness falling evenly.
 CATEGORY_MAP: Final = LinearSegmentedColormap.from_list(

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d import NON_EXPERIENCED
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.agents.lineage_scores import IN_A_ROW, NEVER, LineageScores, Skills
-from evolution.style import FAINT, STYLE
+from evolution.figures.style import FAINT, STYLE
 
 ROW_HEIGHT: Final = 0.36  # [in]
 GROUP_GAP: Final = 0.34  # [in]

@@ -16,7 +16,7 @@ import matplotlib as mpl
 from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 
-from evolution.style import STYLE
+from evolution.figures.style import STYLE
 
 # Largest SVG [bytes], unless its words alone take more.
 LARGEST_DRAWING: Final = 400_000

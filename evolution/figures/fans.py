@@ -14,11 +14,11 @@ from arm2d.constants import DT
 from evolution.agents.behaviour import record_behaviour
 from evolution.agents.classes import Sampling
 from evolution.agents.subtasks import AgentClass
-from evolution.figures_behaviour import draw_alpha, draw_beta, head, trajectory_handles
+from evolution.figures.behaviour import draw_alpha, draw_beta, head, trajectory_handles
+from evolution.figures.style import FAINT, STYLE
 from evolution.results.classes import ClassBehaviour
 from evolution.results.wording import TITLES
 from evolution.runs.recorded import recorded_generation
-from evolution.style import FAINT, STYLE
 
 PER_AREA: Final = 5
 ROW: Final = 1.16  # height of an instruction [in]

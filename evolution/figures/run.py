@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 from arm2d import ActionWord, Condition, ObjectWord
 from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.drawings import png_bytes, svg_bytes
+from evolution.figures.page import png_bytes, svg_bytes
+from evolution.figures.style import FAINT, STYLE
 from evolution.runs.history import History
 from evolution.runs.storage import write_atomically
 from evolution.search.evaluation import Evaluation
-from evolution.style import FAINT, STYLE
 
 BEST_COLOUR: Final = "#1B4F72"
 MEAN_COLOUR: Final = "#8FB3CC"

@@ -15,9 +15,9 @@ from arm2d import ObjectWord
 from arm2d.constants import N_INTER
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.agents.behaviour import NEVER, Behaviour
-from evolution.figures_behaviour import head
-from evolution.figures_neurons import object_handles
-from evolution.style import FAINT, STYLE
+from evolution.figures.behaviour import head
+from evolution.figures.neurons import object_handles
+from evolution.figures.style import FAINT, STYLE
 
 SHOWN_PER_AREA: Final = 3
 

@@ -17,8 +17,8 @@ from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, DT
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.agents.behaviour import NEVER, Behaviour
 from evolution.agents.lesions import LESIONS, LesionScores
-from evolution.figures import SUCCESS_MAP
-from evolution.style import FAINT, STYLE
+from evolution.figures.run import SUCCESS_MAP
+from evolution.figures.style import FAINT, STYLE
 
 FAILED: Final = "#A8A49B"
 DASHES: Final = (0, (4, 2.5))

@@ -14,7 +14,8 @@ from matplotlib.lines import Line2D
 from arm2d import Condition
 from arm2d.drawing import INK
 from evolution.agents.subtasks import SUBTASKS
-from evolution.figures_classes import SHORT
+from evolution.figures.classes import SHORT
+from evolution.figures.style import FAINT, STYLE
 from evolution.results.key_numbers import (
     AT_LIMIT,
     PLATEAU,
@@ -28,7 +29,6 @@ from evolution.results.key_numbers import (
 from evolution.results.published import LARGEST_FITNESS
 from evolution.results.records import Results
 from evolution.results.wording import TITLES
-from evolution.style import FAINT, STYLE
 
 PAPER: Final = "#8A857A"
 OURS: Final = "#12545F"
