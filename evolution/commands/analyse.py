@@ -21,7 +21,7 @@ class Analyse:
     def run(self) -> int:
         """Analyse, write and print."""
         from evolution.experiments.experiment import open_experiment
-        from evolution.result_files import summary, write_results
+        from evolution.report.files import summary, write_results
         from evolution.results.analysis import analyse
 
         results = analyse(open_experiment(self.experiment))

@@ -48,8 +48,8 @@ class Classes:
         from rich.progress import track
 
         from evolution.agents.classes import Sampling, observe
-        from evolution.class_files import behaviours_of, write_classes
         from evolution.experiments.experiment import open_experiment
+        from evolution.report.classes import behaviours_of, write_classes
         from evolution.results.tested_runs import name_of, unfinished
         from evolution.runs.lock import locked
 

@@ -31,7 +31,7 @@ class Compare:
         from evolution.experiments.experiment import open_experiment
         from evolution.figures.compare import compare_figure
         from evolution.figures.run import save_figure
-        from evolution.result_rows import to_csv
+        from evolution.report.rows import to_csv
         from evolution.results.analysis import analyse
         from evolution.results.key_numbers import comparison_rows, departures
         from evolution.runs.storage import make_folder, write_atomically

@@ -30,8 +30,8 @@ class Evaluate(AgentCommand):
         """Evaluate, print and write."""
         from rich.console import Console
 
+        from evolution.report.evaluation import terminal_table
         from evolution.search.evaluation import evaluate
-        from evolution.tables import terminal_table
 
         source = self.find_agent()
         result = evaluate(
@@ -54,8 +54,8 @@ class Evaluate(AgentCommand):
 def _write(source: Source, result: Evaluation, folder: Path) -> list[Path]:
     """Write figures and tables; their paths."""
     from evolution.figures.run import heat_map, save_figure
+    from evolution.report.evaluation import to_csv, to_json
     from evolution.runs.storage import make_folder, write_atomically
-    from evolution.tables import to_csv, to_json
 
     make_folder(folder)
     paths = save_figure(heat_map(result, source.origin), folder / f"{source.name}-heat-map")

@@ -21,7 +21,7 @@ class Report:
     def run(self) -> int:
         """Analyse, write and print the path."""
         from evolution.experiments.experiment import open_experiment
-        from evolution.report import write_report
+        from evolution.report.page import write_report
         from evolution.results.analysis import analyse
 
         results = analyse(open_experiment(self.experiment))

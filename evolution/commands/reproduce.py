@@ -106,7 +106,7 @@ def _analyse(folder: Path) -> Results:
     """The results, their tables and figures written into `results`."""
     from evolution.experiments.experiment import open_experiment
     from evolution.experiments.stage_times import timed
-    from evolution.result_files import summary, write_results
+    from evolution.report.files import summary, write_results
     from evolution.results.analysis import analyse
 
     print("analysing all runs", flush=True)
@@ -136,9 +136,9 @@ def _look_at_agents(results: Results, folder: Path, at_once: int, stop: StopRequ
 def _report(results: Results, folder: Path) -> None:
     """The page."""
     from evolution.agents.classes import Sampling
-    from evolution.class_files import behaviours_kept, write_classes
     from evolution.experiments.stage_times import timed
-    from evolution.report import write_report
+    from evolution.report.classes import behaviours_kept, write_classes
+    from evolution.report.page import write_report
 
     with timed(folder, "reporting"):
         behaviours, _ = behaviours_kept(results, Sampling())

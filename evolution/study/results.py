@@ -15,7 +15,7 @@ from evolution.experiments.warm_workers import WarmStart
 from evolution.experiments.workers import Ended, Job
 from evolution.figures.paper import TITLES
 from evolution.figures.run import save_figure
-from evolution.result_files import to_csv
+from evolution.report.files import to_csv
 from evolution.runs.folder import RunFolder
 from evolution.runs.interrupt import StopRequest
 from evolution.runs.storage import make_folder, write_atomically

@@ -12,8 +12,8 @@ from evolution.agents.classes import CLASSES, Observation, Sampling, choose, obs
 from evolution.agents.lesions import lesion_scores
 from evolution.agents.postevaluation import late_history, post_evaluate
 from evolution.agents.subtasks import AgentClass
-from evolution.class_files import behaviours_of, class_figures, write_classes
 from evolution.cli import main
+from evolution.report.classes import behaviours_of, class_figures, write_classes
 from evolution.results.classes import class_behaviours, measures
 from evolution.runs.folder import RunFolder
 from evolution.runs.storage import DamagedFileError

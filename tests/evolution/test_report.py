@@ -17,11 +17,11 @@ from evolution.agents.solving import solved_trials
 from evolution.agents.subtasks import SUBTASKS
 from evolution.agents.transition_test import run_transition_test
 from evolution.experiments.experiment import open_experiment
-from evolution.recordings_for_web import compact
-from evolution.report import render, write_report
-from evolution.report_figures import file_uri
-from evolution.report_sentences import result_sentences
-from evolution.report_tables import comparison_rows, run_rows
+from evolution.report.page import render, write_report
+from evolution.report.pictures import file_uri
+from evolution.report.recordings import compact
+from evolution.report.report_tables import comparison_rows, run_rows
+from evolution.report.sentences import result_sentences
 from evolution.results import published
 from evolution.results.analysis import analyse
 from evolution.results.notable import best_agent

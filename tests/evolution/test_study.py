@@ -13,7 +13,7 @@ from arm2d.readings import choices
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.cli import main
-from evolution.result_files import to_csv
+from evolution.report.files import to_csv
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.run import evolve

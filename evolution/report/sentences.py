@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from arm2d import NON_EXPERIENCED, Condition
 from evolution.agents.postevaluation import TRIALS
 from evolution.agents.subtasks import AgentClass
-from evolution.report_lines import runs_with_generalisers
+from evolution.report.tables import runs_with_generalisers
 from evolution.results import published
 from evolution.results.notable import best_agent
 from evolution.results.records import ConditionResults, Results

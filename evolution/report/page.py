@@ -22,17 +22,17 @@ from arm2d.drawing import OBJECT_COLOURS
 from evolution.agents.classes import Sampling
 from evolution.agents.postevaluation import TRIALS
 from evolution.agents.subtasks import SUBTASKS, AgentClass
-from evolution.class_files import behaviours_kept, class_figures
 from evolution.experiments.stage_times import stage_times
 from evolution.experiments.standing import standing_of
 from evolution.figures.paper import all_figures
 from evolution.figures.run import SUCCESS_MAP
-from evolution.recordings_for_web import recordings_of
-from evolution.report_configuration import readings_rows, settings_rows, versions_rows
-from evolution.report_figures import figure_uri, file_uri
-from evolution.report_lines import main_lines
-from evolution.report_sentences import result_sentences, standing_of_best
-from evolution.report_tables import category_tables, comparison_rows, departures_in_size, run_rows
+from evolution.report.classes import behaviours_kept, class_figures
+from evolution.report.configuration import readings_rows, settings_rows, versions_rows
+from evolution.report.pictures import figure_uri, file_uri
+from evolution.report.recordings import recordings_of
+from evolution.report.report_tables import category_tables, comparison_rows, departures_in_size, run_rows
+from evolution.report.sentences import result_sentences, standing_of_best
+from evolution.report.tables import main_lines
 from evolution.results.generaliser_text import generalisers_sentence
 from evolution.results.notable import Agent, best_agent
 from evolution.results.records import ConditionResults, Results

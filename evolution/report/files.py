@@ -8,7 +8,7 @@ import numpy as np
 
 from evolution.figures.paper import all_figures
 from evolution.figures.run import save_figure
-from evolution.result_rows import (
+from evolution.report.rows import (
     generaliser_rows,
     genotype_rows,
     run_rows,

@@ -1,0 +1,1 @@
+"""Rows, tables, sentences and the HTML page."""
