@@ -18,7 +18,7 @@ class Repair:
 
     def run(self) -> int:
         """Repair what can be repaired."""
-        from evolution.repair import repair
+        from evolution.trust.repair import repair
 
         n_repaired = repair(self.folder, print)
         print(f"{self.folder} is sound" + (f": {n_repaired} files repaired" if n_repaired else ""))

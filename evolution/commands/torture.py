@@ -26,7 +26,7 @@ class TortureCommand:
 
     def run(self) -> int:
         """Torture and print the tally."""
-        from evolution.torture.rounds import Torture, torture
+        from evolution.trust.torture import Torture, torture
 
         if not 1 <= self.kills <= 100_000:
             raise ValueError(f"asked for {self.kills} kills; give 1 to 100000")

@@ -12,7 +12,7 @@ from tyro.conf import Positional, arg
 
 if TYPE_CHECKING:
     from evolution.runs.folder import RunFolder
-    from evolution.verify import Findings
+    from evolution.trust.verify import Findings
 
 DIFFERS: Final = 1
 RANGE: Final = re.compile(r"(\d{1,9})(?:-(\d{1,9}))?")
@@ -41,7 +41,7 @@ class Verify:
 
         from evolution.progress import shown_progress
         from evolution.runs.folder import RunFolder
-        from evolution.verify import reached, verify
+        from evolution.trust.verify import reached, verify
 
         folder = RunFolder.open(self.run_folder)
         total = reached(folder)

@@ -3,12 +3,12 @@ import shutil
 import pytest
 from small_runs import SMALL, contents
 
-from evolution import repair as repair_module
-from evolution.repair import repair
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.run import Watcher, evolve
 from evolution.runs.storage import DamagedFileError, read_arrays, write_arrays
+from evolution.trust import repair as repair_module
+from evolution.trust.repair import repair
 
 FIRST, SECOND, LAST = "gen-000000-000099.npz", "gen-000100-000199.npz", "gen-000200-000229.npz"
 

@@ -19,7 +19,6 @@ from evolution.agents.transition_test import run_transition_test
 from evolution.cli import main, parse
 from evolution.experiments.experiment import open_experiment
 from evolution.figures.paper import all_figures
-from evolution.repair import repair
 from evolution.results.analysis import analyse
 from evolution.results.shipping import notable_agents, ship
 from evolution.runs.folder import RunFolder
@@ -28,6 +27,7 @@ from evolution.runs.sources import find_source
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
+from evolution.trust.repair import repair
 
 SETTINGS = Settings(population=12, elites=2, parents=6, generations=9)
 

@@ -19,7 +19,7 @@ from evolution.experiments.standing import Pace, Standing, is_held, standing_of,
 from evolution.runs.lock import locked
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.torture.rounds import Torture, torture
+from evolution.trust.torture import Torture, torture
 
 # Far from the paper, so that no stage takes long.
 FLAGS = ["--runs=1", "--population=10", "--elites=2", "--parents=5", "--generations=230"]

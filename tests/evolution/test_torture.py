@@ -8,13 +8,13 @@ import sys
 import pytest
 
 from evolution.runs.folder import RunFolder
-from evolution.torture.disturbances import DAMAGES, _must_be_refused, damage_and_repair
-from evolution.torture.killing import TortureError, _unfinished
-from evolution.torture.rounds import _compare
-from evolution.torture.stages import Schedule, final_name, is_temporary, stage_of, temporaries
-from evolution.torture.tally import PARENT, WORKER, Tally
-from evolution.torture.victims import holder_of, kill, members, names
-from evolution.torture.watch import OpenedFiles
+from evolution.trust.disturbances import DAMAGES, _must_be_refused, damage_and_repair
+from evolution.trust.killing import TortureError, _unfinished
+from evolution.trust.stages import Schedule, final_name, is_temporary, stage_of, temporaries
+from evolution.trust.tally import PARENT, WORKER, Tally
+from evolution.trust.torture import _compare
+from evolution.trust.victims import holder_of, kill, members, names
+from evolution.trust.watch import OpenedFiles
 
 
 def test_a_file_is_noticed_when_it_is_made_and_when_it_is_opened_again(tmp_path):

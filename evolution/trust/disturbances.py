@@ -11,11 +11,11 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Final
 
-from evolution.repair import repair
 from evolution.runs.folder import CHAMPIONS, CHECKPOINT, RunFolder
-from evolution.torture.killing import BAD_INPUT, TortureError
-from evolution.torture.stages import stage_of, temporaries
-from evolution.torture.tally import Tally
+from evolution.trust.killing import BAD_INPUT, TortureError
+from evolution.trust.repair import repair
+from evolution.trust.stages import stage_of, temporaries
+from evolution.trust.tally import Tally
 
 # Too small for a part, large enough for config.toml and meta.json [bytes].
 LARGEST_FILE: Final = 20_000

@@ -16,14 +16,14 @@ from evolution.experiments.plan import Plan, evolve_arguments
 from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.torture.disturbances import (
+from evolution.trust.disturbances import (
     damage_and_repair,
     refuse_where_files_cannot_grow,
     refuse_where_nothing_can_be_written,
 )
-from evolution.torture.killing import Ordeal, TortureError, run_to_its_end
-from evolution.torture.stages import Schedule
-from evolution.torture.tally import Tally
+from evolution.trust.killing import Ordeal, TortureError, run_to_its_end
+from evolution.trust.stages import Schedule
+from evolution.trust.tally import Tally
 
 Tell = Callable[[str], None]
 

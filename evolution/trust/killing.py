@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Final
 
 from evolution.runs.storage import make_folder
-from evolution.torture.stages import RUN_FOLDERS, SHARES, Schedule, is_temporary, stage_of, temporaries
-from evolution.torture.tally import ORPHAN, PARENT, STARTER, WORKER, Tally
-from evolution.torture.victims import holder_of, kill, members, names, session_of, starts_workers
-from evolution.torture.watch import OpenedFiles
+from evolution.trust.stages import RUN_FOLDERS, SHARES, Schedule, is_temporary, stage_of, temporaries
+from evolution.trust.tally import ORPHAN, PARENT, STARTER, WORKER, Tally
+from evolution.trust.victims import holder_of, kill, members, names, session_of, starts_workers
+from evolution.trust.watch import OpenedFiles
 
 LOG: Final = "torture.log"
 # After so many starts of the parent somebody is also killed at a moment that has nothing to do with writing,

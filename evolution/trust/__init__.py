@@ -1,0 +1,1 @@
+"""Runs computed again, repaired, and killed on purpose: may the results be believed?"""
