@@ -65,7 +65,7 @@ class Evolve:
         """Evolve; the exit code is 130 if the run was stopped before its end."""
         from rich.console import Console
 
-        from evolution.progress import shown_progress
+        from evolution.commands.progress import shown_progress
         from evolution.runs.interrupt import StopRequest
         from evolution.runs.run import Watcher, evolve
 

@@ -119,9 +119,9 @@ def _analyse(folder: Path) -> Results:
 
 def _look_at_agents(results: Results, folder: Path, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
     """Trace and observe the best agent of each condition, and observe classes; the jobs given up."""
+    from evolution.commands.reproduction import agent_chains, class_chains
     from evolution.experiments.jobs import Watcher, run_jobs
     from evolution.experiments.stage_times import note_time
-    from evolution.reproduce import agent_chains, class_chains
 
     if chains := agent_chains(results, folder) + class_chains(results, folder):
         print("tracing the best agents' ancestors, and what they and their classes do", flush=True)

@@ -39,7 +39,7 @@ class Verify:
         """Compare and print the verdict."""
         from rich.console import Console
 
-        from evolution.progress import shown_progress
+        from evolution.commands.progress import shown_progress
         from evolution.runs.folder import RunFolder
         from evolution.trust.verify import reached, verify
 
