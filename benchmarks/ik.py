@@ -22,8 +22,8 @@ from rich.table import Table
 from arm2d import Condition, Readings, draw_trials, record_trial
 from benchmarks.ik_solvers import LIBRARIES, TRIED, TUNED, Ours, Solver, installed, library, settled
 from models.robots import Robot, get_robot
-from mujoco_port.kinematics import ArmKinematics
-from mujoco_port.workspace import hand_headings, hand_targets
+from mujoco_port.reach.kinematics import ArmKinematics
+from mujoco_port.reach.workspace import hand_headings, hand_targets
 
 EVOLVED = Path(__file__).parents[1] / "tests" / "evolved.npz"
 COLUMNS = ("path", "solver", "steps", "us median", "p99", "error [m] median", "p99", "largest", "jump [rad]")

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from models.build import HAND_SITE, ROBOT_PREFIX, build_spec
 from models.robots import Robot
-from mujoco_port.hand import hand_model
-from mujoco_port.kinematics import ArmKinematics
+from mujoco_port.reach.hand import hand_model
+from mujoco_port.reach.kinematics import ArmKinematics
 
 SOLVER: Final = "daqp"  # the quickest that both take
 MAX_STEPS: Final = 20
@@ -59,7 +59,7 @@ class Settings:
 
 
 class Ours:
-    """`mujoco_port.kinematics`; without wishes for the hand's rotation it is position only."""
+    """`mujoco_port.reach.kinematics`; without wishes for the hand's rotation it is position only."""
 
     def __init__(self, robot: Robot, *, with_heading: bool) -> None:
         if not with_heading:

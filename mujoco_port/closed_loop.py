@@ -16,7 +16,7 @@ from arm2d.reference import LEFT, RIGHT, Side, controller, sense
 from mujoco_port.contacts import LEFT_SIDE, RIGHT_SIDE
 from mujoco_port.control import Body
 from mujoco_port.physical_rollout import Angles, PhysicalRecord
-from mujoco_port.workspace import beta_of
+from mujoco_port.reach.workspace import beta_of
 
 SKIN_MEMORY = 10  # physics steps: 20 ms, in which a touch that chatters is still felt
 

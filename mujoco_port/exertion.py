@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.limits import MotorLimits
-from mujoco_port.kinematics import ArmKinematics
 from mujoco_port.physical_rollout import PhysicalRecord
+from mujoco_port.reach.kinematics import ArmKinematics
 
 
 @dataclass(frozen=True)

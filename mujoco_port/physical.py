@@ -14,9 +14,9 @@ from models.robots import Robot
 from mujoco_port.closed_loop import ClosedLoop
 from mujoco_port.control import Body
 from mujoco_port.eyes import geometric_eyes
-from mujoco_port.kinematics import ArmKinematics
 from mujoco_port.open_loop import OpenLoop, planar_angles
 from mujoco_port.physical_rollout import Eyes, PhysicalRecord, Pilot, carry_out
+from mujoco_port.reach.kinematics import ArmKinematics
 from mujoco_port.verdict import Verdict, judge
 
 

@@ -20,10 +20,10 @@ from arm2d import Instruction
 from arm2d.constants import MAX_STEPS
 from mujoco_port.contacts import RIGHT_SIDE, ContactSensors
 from mujoco_port.control import Body
-from mujoco_port.kinematics import ArmKinematics
+from mujoco_port.reach.kinematics import ArmKinematics
+from mujoco_port.reach.workspace import hand_headings, hand_targets, on_table, tip_in_plane
 from mujoco_port.stepping_over import stepping_over
 from mujoco_port.trajectory import motion_between
-from mujoco_port.workspace import hand_headings, hand_targets, on_table, tip_in_plane
 
 Angles = tuple[float, float]  # alpha and beta in [deg]
 # Eyes look along alpha [deg] and give where each object seems to be, [3, 2] in [cm] of the 2D world.

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.robots import HandPrint
-from mujoco_port.workspace import smooth
+from mujoco_port.reach.workspace import smooth
 
 
 def stepping_over(

@@ -9,7 +9,7 @@ choose_back_end()  # before mujoco is imported
 
 from benchmarks import ik, ik_solvers  # noqa: E402
 from models.robots import ROBOTS, get_robot  # noqa: E402
-from mujoco_port.kinematics import ArmKinematics  # noqa: E402
+from mujoco_port.reach.kinematics import ArmKinematics  # noqa: E402
 
 
 @pytest.mark.parametrize("name", ROBOTS)

@@ -53,8 +53,8 @@ class Workspace:
     def _certify(self, robot: Robot) -> int:
         from evolution.figures.run import save_figure
         from evolution.runs.storage import make_folder, write_arrays
-        from mujoco_port.certificate import certify
-        from mujoco_port.certificate_figure import draw_certificate
+        from mujoco_port.reach.certificate import certify
+        from mujoco_port.reach.certificate_figure import draw_certificate
 
         if not self.step_deg > 0.0:
             raise ValueError(
@@ -73,7 +73,7 @@ class Workspace:
         return NOT_CERTIFIED if certificate.faults() else 0
 
     def _search(self, robot: Robot) -> int:
-        from mujoco_port.search import search_with_progress, written
+        from mujoco_port.reach.search import search_with_progress, written
 
         best = search_with_progress(robot, evaluations=self.evaluations, seed=self.seed)
         print(written(best))

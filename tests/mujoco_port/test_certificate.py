@@ -7,9 +7,9 @@ import pytest
 
 from evolution.cli import main
 from evolution.runs.storage import read_arrays
-from mujoco_port.certificate import MOST_TURN, STEP_DEG, certify
-from mujoco_port.clearance import Clearance
-from mujoco_port.workspace import hand_targets
+from mujoco_port.reach.certificate import MOST_TURN, STEP_DEG, certify
+from mujoco_port.reach.clearance import Clearance
+from mujoco_port.reach.workspace import hand_targets
 
 COARSE_DEG = 30.0  # the whole grid takes ten seconds; the walks' steps are the same
 COARSEST_DEG = 120.0

@@ -10,7 +10,7 @@ from mujoco_port.closed_loop import felt
 from mujoco_port.contacts import LEFT_SIDE, RIGHT_SIDE
 from mujoco_port.eyes import geometric_eyes
 from mujoco_port.physical_port import start_of
-from mujoco_port.workspace import beta_of, hand_headings, hand_targets, on_table
+from mujoco_port.reach.workspace import beta_of, hand_headings, hand_targets, on_table
 
 READINGS = Readings()
 

@@ -15,11 +15,11 @@ from mujoco_port.gallery import CELL_WIDTH, GAP, HEADER
 from mujoco_port.gallery import HOLD_S as GALLERY_HOLD_S
 from mujoco_port.gallery import frames as gallery_frames
 from mujoco_port.port import port_gallery, port_picture, port_trial
+from mujoco_port.reach.workspace import on_table, tip_in_plane
 from mujoco_port.rollout import FRAMES_PER_STEP, moments, roll_out
 from mujoco_port.stage import Stage
 from mujoco_port.take import kinematic_take
 from mujoco_port.video import CAPTION_HEIGHT_PX, HEIGHT_PX, PER_SECOND, Side
-from mujoco_port.workspace import on_table, tip_in_plane
 
 
 @pytest.fixture(scope="module")

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import models.robots
-from mujoco_port import wishes
-from mujoco_port.search import search, varied, written
-from mujoco_port.wishes import Cost, Wishes, walks
+from mujoco_port.reach import wishes
+from mujoco_port.reach.search import search, varied, written
+from mujoco_port.reach.wishes import Cost, Wishes, walks
 
 
 @pytest.fixture

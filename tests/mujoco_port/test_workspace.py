@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from models.build import build_model
-from mujoco_port.workspace import hand_height, hand_targets, tip_in_plane
+from mujoco_port.reach.workspace import hand_height, hand_targets, tip_in_plane
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from arm2d.drawing import INK
 from models.robots import Robot
-from mujoco_port.certificate import Certificate
+from mujoco_port.reach.certificate import Certificate
 
 FAINT: Final = "#767676"
 WORST: Final = "#D55E00"

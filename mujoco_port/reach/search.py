@@ -3,7 +3,7 @@
 wordarm workspace --search --scale 0.0019
 
 The search varies the place of the robot's root, the rest posture with its weights, and the weights of
-heading and roll. It starts from the record as it stands and lowers the cost of `mujoco_port.wishes`. The
+heading and roll. It starts from the record as it stands and lowers the cost of `mujoco_port.reach.wishes`. The
 method is CMA-ES; the same seed gives the same record.
 """
 
@@ -19,8 +19,8 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from models.robots import Robot
-from mujoco_port.kinematics import ArmKinematics
-from mujoco_port.wishes import Cost, Wishes
+from mujoco_port.reach.kinematics import ArmKinematics
+from mujoco_port.reach.wishes import Cost, Wishes
 
 # How far a coordinate of the search leads when it changes by one.
 PLACE_UNIT: Final = 0.03  # [m], of the root

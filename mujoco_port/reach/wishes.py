@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, BETA_MIN
 from models.robots import Robot
-from mujoco_port.clearance import Clearance
-from mujoco_port.kinematics import ArmKinematics, OutOfReachError
-from mujoco_port.workspace import hand_headings, hand_targets
+from mujoco_port.reach.clearance import Clearance
+from mujoco_port.reach.kinematics import ArmKinematics, OutOfReachError
+from mujoco_port.reach.workspace import hand_headings, hand_targets
 
 TURN_DEG: Final = 2.9  # a step of the 2D world
 SWEEPS_DEG: Final = (90.0, 30.0, 20.0, 0.0)  # beta of walks from bound to bound: bent, half lifted, straight

@@ -17,9 +17,9 @@ from rich.progress import track
 
 from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, BETA_MIN
 from models.robots import Robot
-from mujoco_port.clearance import Clearance
-from mujoco_port.kinematics import ArmKinematics, OutOfReachError
-from mujoco_port.workspace import hand_headings, hand_targets
+from mujoco_port.reach.clearance import Clearance
+from mujoco_port.reach.kinematics import ArmKinematics, OutOfReachError
+from mujoco_port.reach.workspace import hand_headings, hand_targets
 
 STEP_DEG: Final = 2.9  # one turn of the 2D world
 REACHED: Final = 1e-6  # [m], error below which a place counts as reached

@@ -8,7 +8,7 @@ The hand's position is met exactly, its heading and roll as nearly as the postur
 Per target one proximal Gauss-Newton step on the whole problem (`inertia` holds on to the last posture,
 without it the redundant joints oscillate), then Newton steps on the position alone until the error is
 below `TOLERANCE`.
-Both are the quadratic programme of `mujoco_port.quadratic`. Between two targets of a path no joint turns by
+Both are the quadratic programme of `mujoco_port.reach.quadratic`. Between two targets of a path no joint turns by
 more than `MAX_TURN`, where that lets the hand arrive.
 """
 
@@ -20,8 +20,8 @@ import numpy as np
 import pinocchio as pin
 
 from models.robots import Robot
-from mujoco_port.hand import hand_model
-from mujoco_port.quadratic import bounded, relaxed
+from mujoco_port.reach.hand import hand_model
+from mujoco_port.reach.quadratic import bounded, relaxed
 
 WORLD_AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 TOLERANCE = 1e-10  # [m], distance to the target at which the Newton steps end

@@ -1,0 +1,1 @@
+"""From the plane to the robot: the map to the table, inverse kinematics, the workspace certificate."""
