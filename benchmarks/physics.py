@@ -15,11 +15,11 @@ from rich.table import Table
 
 from arm2d import Condition, Readings, Trials, draw_trials
 from models.robots import get_robot
-from mujoco_port.exertion import Exertion, exertion, tracking_errors
-from mujoco_port.eyes import geometric_eyes
-from mujoco_port.open_loop import OpenLoop, planar_angles
-from mujoco_port.physical import Lab, instruction_of
-from mujoco_port.physical_rollout import PhysicalRecord, carry_out
+from mujoco_port.acting.exertion import Exertion, exertion, tracking_errors
+from mujoco_port.acting.eyes import geometric_eyes
+from mujoco_port.acting.lab import Lab, instruction_of
+from mujoco_port.acting.open_loop import OpenLoop, planar_angles
+from mujoco_port.acting.rollout import PhysicalRecord, carry_out
 
 CHAMPION = Path(__file__).parents[1] / "evolution" / "champions" / "best-generaliser.npz"
 OUT_OF_THE_WAY_M = np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]])  # corners of the table

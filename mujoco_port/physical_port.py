@@ -19,9 +19,9 @@ from mujoco_port.gl import choose_back_end
 from mujoco_port.port import check_gallery, writable
 
 if TYPE_CHECKING:
-    from mujoco_port.physical import Lab
-    from mujoco_port.physical_rollout import PhysicalRecord
-    from mujoco_port.verdict import Verdict
+    from mujoco_port.acting.lab import Lab
+    from mujoco_port.acting.rollout import PhysicalRecord
+    from mujoco_port.acting.verdict import Verdict
 
 ClosedLoopName = Literal["geometric", "camera"]
 
@@ -55,7 +55,7 @@ def port_physical_trial(
     chosen = get_robot(robot)
     if path is not None or closed_loop == "camera":
         choose_back_end()
-    from mujoco_port.physical import Lab
+    from mujoco_port.acting.lab import Lab
 
     physical, verdict = _carry_out(Lab(chosen), record, genotype, closed_loop)
     if path is not None:
@@ -96,8 +96,8 @@ def port_physical_gallery(
     choose_back_end()
     from rich.progress import track
 
+    from mujoco_port.acting.lab import Lab
     from mujoco_port.gallery import write_gallery
-    from mujoco_port.physical import Lab
     from mujoco_port.physical_take import physical_take
 
     lab, takes, verdicts = Lab(chosen), [], []
@@ -118,7 +118,7 @@ def _carry_out(
         return lab.open_loop(genotype, trial, record.readings)
     if closed_loop == "geometric":
         return lab.closed_loop(genotype, trial, record.readings)
-    from mujoco_port.camera import CameraEyes
+    from mujoco_port.acting.camera import CameraEyes
 
     with CameraEyes(lab.body) as eyes:
         return lab.closed_loop(genotype, trial, record.readings, eyes)

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from arm2d import TrialRecord
 from arm2d.constants import DT
 from models.robots import Robot
+from mujoco_port.acting.stepping_over import stepping_over
 from mujoco_port.reach.kinematics import ArmKinematics
 from mujoco_port.reach.workspace import hand_headings, hand_targets, on_table, tip_in_plane
-from mujoco_port.stepping_over import stepping_over
 
 # Postures between two control steps: the arm of the 2D world is interpolated, and solved for anew.
 FRAMES_PER_STEP: Final = 2.5  # 25 in a second

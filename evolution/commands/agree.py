@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from tyro.conf import Positional, arg
 
 if TYPE_CHECKING:
-    from mujoco_port.agreement import Agent
+    from mujoco_port.acting.agreement import Agent
 
 
 @dataclass(frozen=True)
@@ -50,9 +50,9 @@ class Agree:
         from rich.progress import track
 
         from models.robots import get_robot
-        from mujoco_port.agreement import jobs, outcomes
+        from mujoco_port.acting.agreement import jobs, outcomes
+        from mujoco_port.acting.tally import tables
         from mujoco_port.gl import choose_back_end
-        from mujoco_port.tally import tables
 
         get_robot(self.robot)
         if "camera" in self.loops:
@@ -77,7 +77,7 @@ class Agree:
 def find_agent(name: str) -> Agent:
     """An agent, by what the user calls it."""
     from evolution.runs.sources import find_source
-    from mujoco_port.agreement import Agent
+    from mujoco_port.acting.agreement import Agent
 
     source = find_source(name)
     home = "" if source.folder is None else f"{source.condition}/{source.folder.path.name}/"

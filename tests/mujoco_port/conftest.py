@@ -9,7 +9,7 @@ choose_back_end()  # before any test imports mujoco
 
 from arm2d import Condition, Readings, draw_trials, record_trial  # noqa: E402
 from models.robots import get_robot  # noqa: E402
-from mujoco_port.physical import Lab  # noqa: E402
+from mujoco_port.acting.lab import Lab  # noqa: E402
 from mujoco_port.reach.kinematics import ArmKinematics  # noqa: E402
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from arm2d import Instruction, Readings
-from mujoco_port.agreement import Agent, Outcome, jobs, outcomes
-from mujoco_port.tally import tally
+from mujoco_port.acting.agreement import Agent, Outcome, jobs, outcomes
+from mujoco_port.acting.tally import tally
 
 
 @pytest.fixture(scope="module")

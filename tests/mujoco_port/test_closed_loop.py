@@ -5,10 +5,10 @@ import pytest
 
 from arm2d import Instruction, Readings, draw_trials, record_trial
 from evolution.runs.sources import find_source
-from mujoco_port.camera import CameraEyes
-from mujoco_port.closed_loop import felt
-from mujoco_port.contacts import LEFT_SIDE, RIGHT_SIDE
-from mujoco_port.eyes import geometric_eyes
+from mujoco_port.acting.camera import CameraEyes
+from mujoco_port.acting.closed_loop import felt
+from mujoco_port.acting.contacts import LEFT_SIDE, RIGHT_SIDE
+from mujoco_port.acting.eyes import geometric_eyes
 from mujoco_port.physical_port import start_of
 from mujoco_port.reach.workspace import beta_of, hand_headings, hand_targets, on_table
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from arm2d import Instruction, Readings, draw_trials, record_trial
-from mujoco_port.contacts import LEFT_SIDE, OBJECT, RIGHT_SIDE, ContactSensors
-from mujoco_port.exertion import tracking_errors
+from mujoco_port.acting.contacts import LEFT_SIDE, OBJECT, RIGHT_SIDE, ContactSensors
+from mujoco_port.acting.exertion import tracking_errors
 from mujoco_port.physical_port import start_of
 from mujoco_port.reach.workspace import hand_headings, hand_targets
 

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from models.physics import NoPhysicsError, build_physics_model
-from mujoco_port.control import UnstableError
-from mujoco_port.exertion import exertion, tracking_errors
-from mujoco_port.eyes import geometric_eyes
-from mujoco_port.open_loop import planar_angles
-from mujoco_port.physical_rollout import carry_out
-from mujoco_port.trajectory import motion_between
+from mujoco_port.acting.control import UnstableError
+from mujoco_port.acting.exertion import exertion, tracking_errors
+from mujoco_port.acting.eyes import geometric_eyes
+from mujoco_port.acting.open_loop import planar_angles
+from mujoco_port.acting.rollout import carry_out
+from mujoco_port.acting.trajectory import motion_between
 
 N = 50  # physics steps in a control step
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from arm2d.constants import BETA_MAX
-from mujoco_port.gaps import FARTHEST, Gaps
+from mujoco_port.acting.gaps import FARTHEST, Gaps
 from mujoco_port.reach.workspace import hand_headings, hand_targets
 from mujoco_port.rollout import roll_out
 

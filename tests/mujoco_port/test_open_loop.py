@@ -5,7 +5,7 @@ from itertools import islice
 import numpy as np
 
 from arm2d import Instruction, Readings, draw_trials
-from mujoco_port.open_loop import OpenLoop, planar_angles
+from mujoco_port.acting.open_loop import OpenLoop, planar_angles
 
 
 def test_orders_are_those_of_the_recorded_trial_and_go_on_after_it(evolved_agent, champion_records):

@@ -4,8 +4,8 @@ import pytest
 
 from evolution.cli import main
 from evolution.commands.agree import find_agent
-from mujoco_port.agreement import fingerprint, jobs
-from mujoco_port.physical import instruction_of
+from mujoco_port.acting.agreement import fingerprint, jobs
+from mujoco_port.acting.lab import instruction_of
 
 
 def test_port_with_physics_prints_both_verdicts_and_without_a_video_writes_nothing(

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from models.robots import get_robot
+from mujoco_port.acting.stepping_over import stepping_over
 from mujoco_port.reach.workspace import hand_headings, hand_height, on_table, tip_in_plane
-from mujoco_port.stepping_over import stepping_over
 
 HAND = np.array([0.1, 0.2])
 PRINT = get_robot("icub").plane.hand_print

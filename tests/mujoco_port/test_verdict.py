@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from arm2d import Instruction, Readings
-from mujoco_port.contacts import ARM, LEFT_SIDE, OBJECT, RIGHT_SIDE
-from mujoco_port.physical_rollout import PhysicalRecord
-from mujoco_port.verdict import closed, judge
+from mujoco_port.acting.contacts import ARM, LEFT_SIDE, OBJECT, RIGHT_SIDE
+from mujoco_port.acting.rollout import PhysicalRecord
+from mujoco_port.acting.verdict import closed, judge
 
 BLUE, GREEN, RED = 0, 1, 2
 TEN_SECONDS = 5000  # physics steps

@@ -20,8 +20,8 @@ from arm2d.constants import DT
 from models.build import HAND_SITE, ROBOT_PREFIX
 from models.physics import OBJECTS, build_physics_model
 from models.robots import Robot
+from mujoco_port.acting.trajectory import Motion
 from mujoco_port.reach.hand import hand_model
-from mujoco_port.trajectory import Motion
 
 # MuJoCo's warnings of numbers that are none, or too large.
 UNSTABLE: Final = tuple(

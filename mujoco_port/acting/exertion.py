@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.limits import MotorLimits
-from mujoco_port.physical_rollout import PhysicalRecord
+from mujoco_port.acting.rollout import PhysicalRecord
 from mujoco_port.reach.kinematics import ArmKinematics
 
 

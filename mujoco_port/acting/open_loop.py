@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from arm2d import Instruction, Readings
 from arm2d import constants as c
 from arm2d.reference import Side, controller, sense, touch
-from mujoco_port.physical_rollout import Angles, PhysicalRecord
+from mujoco_port.acting.rollout import Angles, PhysicalRecord
 
 
 def planar_angles(

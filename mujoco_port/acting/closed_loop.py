@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from arm2d import Instruction, Readings
 from arm2d import constants as c
 from arm2d.reference import LEFT, RIGHT, Side, controller, sense
-from mujoco_port.contacts import LEFT_SIDE, RIGHT_SIDE
-from mujoco_port.control import Body
-from mujoco_port.physical_rollout import Angles, PhysicalRecord
+from mujoco_port.acting.contacts import LEFT_SIDE, RIGHT_SIDE
+from mujoco_port.acting.control import Body
+from mujoco_port.acting.rollout import Angles, PhysicalRecord
 from mujoco_port.reach.workspace import beta_of
 
 SKIN_MEMORY = 10  # physics steps: 20 ms, in which a touch that chatters is still felt

@@ -1,9 +1,9 @@
-"""Eyes that know where the objects are; those of `mujoco_port.camera` have to look."""
+"""Eyes that know where the objects are; those of `mujoco_port.acting.camera` have to look."""
 
 from __future__ import annotations
 
-from mujoco_port.control import Body
-from mujoco_port.physical_rollout import Eyes
+from mujoco_port.acting.control import Body
+from mujoco_port.acting.rollout import Eyes
 
 
 def geometric_eyes(body: Body) -> Eyes:

@@ -183,7 +183,7 @@ _eyes = None
 def _move_in(robot: str) -> None:
     """Build the robot of this process once."""
     global _lab, _eyes
-    from mujoco_port.physical import Lab
+    from mujoco_port.acting.lab import Lab
 
     _lab, _eyes = Lab(get_robot(robot)), None
 
@@ -196,7 +196,7 @@ def carry_out_job(job: Job) -> Outcome:
     agent, readings = job.agent, job.agent.readings
     scores = run_trials(agent.genotype[np.newaxis], job.trial, readings)
     if job.loop == "camera" and _eyes is None:
-        from mujoco_port.camera import CameraEyes
+        from mujoco_port.acting.camera import CameraEyes
 
         _eyes = CameraEyes(_lab.body)
     if job.loop in ("open", "delayed"):

@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 from arm2d import ActionWord, Readings
 from arm2d.constants import DT, GOOD_STEPS_FOR_SUCCESS, VIEW_HALF_WIDTH
-from mujoco_port.contacts import RIGHT_SIDE
-from mujoco_port.physical_rollout import PhysicalRecord
+from mujoco_port.acting.contacts import RIGHT_SIDE
+from mujoco_port.acting.rollout import PhysicalRecord
 
 PHYSICS_STEP: Final = 0.002  # [s]
 GOOD_TIME_S: Final = DT * GOOD_STEPS_FOR_SUCCESS

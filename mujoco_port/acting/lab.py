@@ -1,6 +1,6 @@
 """Trials on an acting robot: the public face of the physics.
 
-from mujoco_port.physical import Lab
+from mujoco_port.acting.lab import Lab
 record, verdict = Lab(get_robot("icub")).open_loop(genotype, trial, readings)
 """
 
@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from arm2d import ActionWord, Instruction, ObjectWord, Readings, Trials
 from models.robots import Robot
-from mujoco_port.closed_loop import ClosedLoop
-from mujoco_port.control import Body
-from mujoco_port.eyes import geometric_eyes
-from mujoco_port.open_loop import OpenLoop, planar_angles
-from mujoco_port.physical_rollout import Eyes, PhysicalRecord, Pilot, carry_out
+from mujoco_port.acting.closed_loop import ClosedLoop
+from mujoco_port.acting.control import Body
+from mujoco_port.acting.eyes import geometric_eyes
+from mujoco_port.acting.open_loop import OpenLoop, planar_angles
+from mujoco_port.acting.rollout import Eyes, PhysicalRecord, Pilot, carry_out
+from mujoco_port.acting.verdict import Verdict, judge
 from mujoco_port.reach.kinematics import ArmKinematics
-from mujoco_port.verdict import Verdict, judge
 
 
 class Lab:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from arm2d.constants import CHORD_END_DISTANCE
 from models.build import VISUAL_GROUP
 from models.physics import EYE, OBJECTS
-from mujoco_port.control import Body
+from mujoco_port.acting.control import Body
 
 WIDTH_PX: Final = 640
 HEIGHT_PX: Final = 64

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from rich.table import Table
 
-from mujoco_port.agreement import Outcome
+from mujoco_port.acting.agreement import Outcome
 
 
 @dataclass(frozen=True)

@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction
 from arm2d.constants import MAX_STEPS
-from mujoco_port.contacts import RIGHT_SIDE, ContactSensors
-from mujoco_port.control import Body
+from mujoco_port.acting.contacts import RIGHT_SIDE, ContactSensors
+from mujoco_port.acting.control import Body
+from mujoco_port.acting.stepping_over import stepping_over
+from mujoco_port.acting.trajectory import motion_between
 from mujoco_port.reach.kinematics import ArmKinematics
 from mujoco_port.reach.workspace import hand_headings, hand_targets, on_table, tip_in_plane
-from mujoco_port.stepping_over import stepping_over
-from mujoco_port.trajectory import motion_between
 
 Angles = tuple[float, float]  # alpha and beta in [deg]
 # Eyes look along alpha [deg] and give where each object seems to be, [3, 2] in [cm] of the 2D world.
@@ -70,7 +70,7 @@ class PhysicalRecord:
         hand: [N, 3] in [m], measured.
         joints: [N, J] in [rad], where the interpolated path has them.
         places: [N, 3, 7], of the objects: centre in [m] and quaternion.
-        contact: [N, 3], bits of `mujoco_port.contacts`.
+        contact: [N, 3], bits of `mujoco_port.acting.contacts`.
         depth: [N] in [m], how deep the deepest contact of the robot is pressed in.
     """
 
