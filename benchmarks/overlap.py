@@ -19,7 +19,7 @@ from arm2d import TrialRecord, draw_trials, record_trial
 from evolution.runs.sources import Source, find_source
 from models.robots import get_robot
 from mujoco_port.acting.gaps import Gaps
-from mujoco_port.rollout import roll_out
+from mujoco_port.film.kinematic import roll_out
 
 AGENTS: Final = ("best-generaliser", "best-specialist", "with-ignore")
 PER_AREA: Final = 3

@@ -18,7 +18,7 @@ from rich.table import Table
 
 from arm2d import ActionWord, Condition, ObjectWord, Readings, TrialRecord, draw_trials, record_trial
 from models.robots import get_robot
-from mujoco_port.gl import choose_back_end
+from mujoco_port.film.gl import choose_back_end
 
 EVOLVED = Path(__file__).parents[1] / "tests" / "evolved.npz"
 N_FRAMES = 60
@@ -55,10 +55,10 @@ def main() -> None:
     """Print a table."""
     choose_back_end()
     from arm2d.video import write_mp4
-    from mujoco_port.rollout import FRAMES_PER_STEP
-    from mujoco_port.stage import Stage
-    from mujoco_port.take import kinematic_take
-    from mujoco_port.video import HEIGHT_PX, PER_SECOND, ROBOT_WIDTH_PX, Side, frames, write_take
+    from mujoco_port.film.kinematic import FRAMES_PER_STEP
+    from mujoco_port.film.stage import Stage
+    from mujoco_port.film.take import kinematic_take
+    from mujoco_port.film.video import HEIGHT_PX, PER_SECOND, ROBOT_WIDTH_PX, Side, frames, write_take
 
     robot = get_robot(sys.argv[1] if len(sys.argv) > 1 else "icub")
     record = longest_trial()

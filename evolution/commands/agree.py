@@ -52,7 +52,7 @@ class Agree:
         from models.robots import get_robot
         from mujoco_port.acting.agreement import jobs, outcomes
         from mujoco_port.acting.tally import tables
-        from mujoco_port.gl import choose_back_end
+        from mujoco_port.film.gl import choose_back_end
 
         get_robot(self.robot)
         if "camera" in self.loops:

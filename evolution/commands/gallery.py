@@ -36,8 +36,8 @@ class Gallery(AgentCommand):
         from evolution.agents.recording import record_instruction
         from evolution.runs.storage import make_folder
         from models.robots import get_robot
-        from mujoco_port.physical_port import check_acts, port_physical_gallery
-        from mujoco_port.port import port_gallery
+        from mujoco_port.film.physical_port import check_acts, port_physical_gallery
+        from mujoco_port.film.port import port_gallery
 
         get_robot(self.robot)  # refuses unknown names before anything is made
         source = self.find_agent()

@@ -4,7 +4,7 @@ The camera stands in J1, as high as the objects' middle, and looks along S1. It 
 of the agent's field of view, so that an object at its rim is seen as a whole, and its middle where it is, and
 so that the hand need not come down on what lies below it.
 
-Import only after `mujoco_port.gl.choose_back_end`.
+Import only after `mujoco_port.film.gl.choose_back_end`.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from typing import Final
 
 from mujoco_port.doctor.children import Attempt, attempt
 from mujoco_port.doctor.findings import Finding, State
-from mujoco_port.gl import BACK_ENDS, PACKAGES, PROBE, VARIABLE, probe_environment, works
+from mujoco_port.film.gl import BACK_ENDS, PACKAGES, PROBE, VARIABLE, probe_environment, works
 
 TOPIC: Final = "drawing without a screen"
 LOAD: Final = "import ctypes, sys; ctypes.CDLL(sys.argv[1])"

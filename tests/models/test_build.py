@@ -6,7 +6,7 @@ import pytest
 
 from models.robots import UnknownRobotError, get_robot
 from models.urdf import RobotNotInstalledError, find_urdf
-from mujoco_port.gl import choose_back_end
+from mujoco_port.film.gl import choose_back_end
 
 choose_back_end()
 

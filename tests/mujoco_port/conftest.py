@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mujoco_port.gl import choose_back_end
+from mujoco_port.film.gl import choose_back_end
 
 choose_back_end()  # before any test imports mujoco
 

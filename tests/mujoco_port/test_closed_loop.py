@@ -9,7 +9,7 @@ from mujoco_port.acting.camera import CameraEyes
 from mujoco_port.acting.closed_loop import felt
 from mujoco_port.acting.contacts import LEFT_SIDE, RIGHT_SIDE
 from mujoco_port.acting.eyes import geometric_eyes
-from mujoco_port.physical_port import start_of
+from mujoco_port.film.physical_port import start_of
 from mujoco_port.reach.workspace import beta_of, hand_headings, hand_targets, on_table
 
 READINGS = Readings()

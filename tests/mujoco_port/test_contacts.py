@@ -6,7 +6,7 @@ import pytest
 from arm2d import Instruction, Readings, draw_trials, record_trial
 from mujoco_port.acting.contacts import LEFT_SIDE, OBJECT, RIGHT_SIDE, ContactSensors
 from mujoco_port.acting.exertion import tracking_errors
-from mujoco_port.physical_port import start_of
+from mujoco_port.film.physical_port import start_of
 from mujoco_port.reach.workspace import hand_headings, hand_targets
 
 ALPHA = 120.0  # where the straight arm of these tests points

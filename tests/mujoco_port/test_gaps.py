@@ -5,8 +5,8 @@ import pytest
 
 from arm2d.constants import BETA_MAX
 from mujoco_port.acting.gaps import FARTHEST, Gaps
+from mujoco_port.film.kinematic import roll_out
 from mujoco_port.reach.workspace import hand_headings, hand_targets
-from mujoco_port.rollout import roll_out
 
 RIGHT = 1
 OVERLAP_M = 3e-3  # a heading some degrees off lets the hand reach a little ahead of S2

@@ -7,9 +7,9 @@ from scipy.optimize import least_squares
 
 from models.build import HAND_SITE, ROBOT_PREFIX, build_model
 from models.robots import ROBOTS, get_robot
+from mujoco_port.film.kinematic import roll_out
 from mujoco_port.reach.kinematics import MAX_TURN, ArmKinematics, OutOfReachError
 from mujoco_port.reach.workspace import hand_headings, hand_targets
-from mujoco_port.rollout import roll_out
 
 
 # Every robot there is has to pass.

@@ -6,10 +6,10 @@ import pytest
 
 from evolution.agents.recording import record_instruction
 from evolution.runs.sources import find_source
-from mujoco_port.gallery import CELL_WIDTH, CLOCK, ROBOT_WIDTH, STRIP, VIEW_HEIGHT, cell_pictures
-from mujoco_port.physical_port import port_physical_gallery, start_of
-from mujoco_port.physical_take import physical_take
-from mujoco_port.stage import Stage
+from mujoco_port.film.gallery import CELL_WIDTH, CLOCK, ROBOT_WIDTH, STRIP, VIEW_HEIGHT, cell_pictures
+from mujoco_port.film.physical_port import port_physical_gallery, start_of
+from mujoco_port.film.physical_take import physical_take
+from mujoco_port.film.stage import Stage
 
 
 @pytest.fixture(scope="module")

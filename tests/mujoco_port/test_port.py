@@ -11,15 +11,15 @@ import pytest
 from arm2d import NON_EXPERIENCED
 from arm2d.drawing import OBJECT_COLOURS
 from models.robots import UnknownRobotError
-from mujoco_port.gallery import CELL_WIDTH, GAP, HEADER
-from mujoco_port.gallery import HOLD_S as GALLERY_HOLD_S
-from mujoco_port.gallery import frames as gallery_frames
-from mujoco_port.port import port_gallery, port_picture, port_trial
+from mujoco_port.film.gallery import CELL_WIDTH, GAP, HEADER
+from mujoco_port.film.gallery import HOLD_S as GALLERY_HOLD_S
+from mujoco_port.film.gallery import frames as gallery_frames
+from mujoco_port.film.kinematic import FRAMES_PER_STEP, moments, roll_out
+from mujoco_port.film.port import port_gallery, port_picture, port_trial
+from mujoco_port.film.stage import Stage
+from mujoco_port.film.take import kinematic_take
+from mujoco_port.film.video import CAPTION_HEIGHT_PX, HEIGHT_PX, PER_SECOND, Side
 from mujoco_port.reach.workspace import on_table, tip_in_plane
-from mujoco_port.rollout import FRAMES_PER_STEP, moments, roll_out
-from mujoco_port.stage import Stage
-from mujoco_port.take import kinematic_take
-from mujoco_port.video import CAPTION_HEIGHT_PX, HEIGHT_PX, PER_SECOND, Side
 
 
 @pytest.fixture(scope="module")
@@ -166,7 +166,7 @@ def run_gl(code, **environment):
     return done.returncode, (done.stdout + done.stderr).strip().splitlines()[-1]
 
 
-CHOOSE = "from mujoco_port.gl import choose_back_end; print(choose_back_end())"
+CHOOSE = "from mujoco_port.film.gl import choose_back_end; print(choose_back_end())"
 
 
 def test_a_back_end_that_works_is_chosen_by_itself():
@@ -185,7 +185,7 @@ def test_egl_without_a_driver_gives_way_or_says_what_to_install():
 
 
 def test_no_back_end_at_all_says_what_to_install():
-    broken = "import mujoco_port.gl as gl; gl.works = lambda name: False; gl.choose_back_end()"
+    broken = "import mujoco_port.film.gl as gl; gl.works = lambda name: False; gl.choose_back_end()"
     code, line = run_gl(broken)
     assert code == 1
     assert "neither EGL nor OSMesa can draw here without a screen; run: apt-get install libegl1" in line

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from arm2d import TrialRecord
 from arm2d.drawing import state_at
 from models.robots import Robot
-from mujoco_port.rollout import roll_out
+from mujoco_port.film.kinematic import roll_out
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ import numpy as np
 from arm2d import TrialRecord
 from mujoco_port.acting.rollout import PhysicalRecord
 from mujoco_port.acting.verdict import Verdict
-from mujoco_port.rollout import FRAMES_PER_STEP
-from mujoco_port.take import Take
+from mujoco_port.film.kinematic import FRAMES_PER_STEP
+from mujoco_port.film.take import Take
 
 
 def physical_take(planar: TrialRecord, record: PhysicalRecord, verdict: Verdict) -> Take:

@@ -1,6 +1,6 @@
 """Putting a trial on the robot: the public face of this package.
 
-from mujoco_port.port import port_trial
+from mujoco_port.film.port import port_trial
 port_trial(record, Path("touch-red.mp4"))
 """
 
@@ -13,7 +13,7 @@ from typing import Final
 
 from arm2d import TrialRecord
 from models.robots import get_robot
-from mujoco_port.gl import choose_back_end
+from mujoco_port.film.gl import choose_back_end
 
 N_GALLERY: Final = 9
 
@@ -39,7 +39,7 @@ def port_trial(record: TrialRecord, output: Path | str, *, robot: str = "icub") 
     """
     path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
     choose_back_end()
-    from mujoco_port.video import write_video
+    from mujoco_port.film.video import write_video
 
     write_video(record, chosen, path)
     return path
@@ -65,9 +65,9 @@ def port_gallery(
     check_gallery(records)
     path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
     choose_back_end()
-    from mujoco_port.gallery import write_gallery
-    from mujoco_port.rollout import FRAMES_PER_STEP
-    from mujoco_port.take import kinematic_take
+    from mujoco_port.film.gallery import write_gallery
+    from mujoco_port.film.kinematic import FRAMES_PER_STEP
+    from mujoco_port.film.take import kinematic_take
 
     takes = [kinematic_take(record, chosen, FRAMES_PER_STEP) for record in records]
     return path, write_gallery(takes, chosen, title, path)
@@ -85,7 +85,7 @@ def port_picture(record: TrialRecord, step: int, output: Path | str, *, robot: s
     choose_back_end()
     import imageio.v3 as imageio
 
-    from mujoco_port.video import frame_at
+    from mujoco_port.film.video import frame_at
 
     imageio.imwrite(path, frame_at(record, chosen, step))
     return path

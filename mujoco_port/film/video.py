@@ -14,11 +14,11 @@ from arm2d import TrialRecord
 from arm2d.constants import DT
 from arm2d.video import Panel, write_mp4
 from models.robots import Robot
-from mujoco_port.caption import footing, heading
-from mujoco_port.overlay import halved
-from mujoco_port.rollout import FRAMES_PER_STEP
-from mujoco_port.stage import Stage
-from mujoco_port.take import Take, kinematic_take
+from mujoco_port.film.caption import footing, heading
+from mujoco_port.film.kinematic import FRAMES_PER_STEP
+from mujoco_port.film.overlay import halved
+from mujoco_port.film.stage import Stage
+from mujoco_port.film.take import Take, kinematic_take
 
 HEIGHT_PX: Final = 720
 ROBOT_WIDTH_PX: Final = 800

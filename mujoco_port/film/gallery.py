@@ -16,11 +16,11 @@ from arm2d.constants import DT
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
 from arm2d.video import Panel, write_mp4
 from models.robots import Robot
-from mujoco_port.caption import BADGE, FAINT, blank, mark, pixels
-from mujoco_port.overlay import halved
-from mujoco_port.stage import Stage
-from mujoco_port.take import Take
-from mujoco_port.video import PER_SECOND, robot_pictures
+from mujoco_port.film.caption import BADGE, FAINT, blank, mark, pixels
+from mujoco_port.film.overlay import halved
+from mujoco_port.film.stage import Stage
+from mujoco_port.film.take import Take
+from mujoco_port.film.video import PER_SECOND, robot_pictures
 
 # Pixels: 1920 x 1080 in all. A cell is a strip of words over robot and planar world.
 COLUMNS: Final = 3

@@ -1,6 +1,6 @@
 """Putting a trial on an acting robot: the public face of the physics for trials of one agent.
 
-from mujoco_port.physical_port import port_physical_trial
+from mujoco_port.film.physical_port import port_physical_trial
 verdict = port_physical_trial(record, genotype, "touch-red.mp4")
 """
 
@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from arm2d import TrialRecord, Trials
 from models.robots import get_robot
-from mujoco_port.gl import choose_back_end
-from mujoco_port.port import check_gallery, writable
+from mujoco_port.film.gl import choose_back_end
+from mujoco_port.film.port import check_gallery, writable
 
 if TYPE_CHECKING:
     from mujoco_port.acting.lab import Lab
@@ -59,8 +59,8 @@ def port_physical_trial(
 
     physical, verdict = _carry_out(Lab(chosen), record, genotype, closed_loop)
     if path is not None:
-        from mujoco_port.physical_take import physical_take
-        from mujoco_port.video import write_take
+        from mujoco_port.film.physical_take import physical_take
+        from mujoco_port.film.video import write_take
 
         write_take(physical_take(record, physical, verdict), chosen, path)
     return verdict
@@ -97,8 +97,8 @@ def port_physical_gallery(
     from rich.progress import track
 
     from mujoco_port.acting.lab import Lab
-    from mujoco_port.gallery import write_gallery
-    from mujoco_port.physical_take import physical_take
+    from mujoco_port.film.gallery import write_gallery
+    from mujoco_port.film.physical_take import physical_take
 
     lab, takes, verdicts = Lab(chosen), [], []
     for record in track(records, "trials on the robot"):

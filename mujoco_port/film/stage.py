@@ -1,6 +1,6 @@
 """The robot at its table in MuJoCo, posed moment by moment and drawn off-screen.
 
-Import only after `mujoco_port.gl.choose_back_end`.
+Import only after `mujoco_port.film.gl.choose_back_end`.
 
 A software renderer takes its time by the pixel, and three times over where there are shadows. Floor, sky and
 the table's legs never change and fill half of a picture: they are drawn once and laid under the rest.
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from models.build import ROBOT_PREFIX, build_spec
 from models.robots import Robot
-from mujoco_port.overlay import lay_over
+from mujoco_port.film.overlay import lay_over
 
 OBJECTS: Final = ("blue", "green", "red")
 BACKDROP_GROUP: Final = 2  # in `scene.xml`: of what never moves and never hides the robot

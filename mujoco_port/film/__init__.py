@@ -1,0 +1,1 @@
+"""What is seen: the stage, captions, videos, galleries and the two ports."""
