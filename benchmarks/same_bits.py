@@ -3,7 +3,7 @@
     python -m benchmarks.same_bits
 
 Each target is a process of its own, which compiles once (9 to 13 s of CPU) and computes every run of
-tests/evolution/golden.json. The machine must be able to run the target's code.
+tests/evolution/runs/golden.json. The machine must be able to run the target's code.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import sys
 import time
 from pathlib import Path
 
-GOLDEN = Path(__file__).parents[1] / "tests" / "evolution" / "golden.json"
+GOLDEN = Path(__file__).parents[1] / "tests" / "evolution" / "runs" / "golden.json"
 # Name of the target, and LLVM's name for the processor; none for the one at hand.
 TARGETS = {"plain x86-64": "x86-64", "SSE4.2": "nehalem", "AVX2": "haswell", "this machine": ""}
 SCRIPT = """

@@ -1,7 +1,7 @@
 """A process that has loaded and compiled everything once, and forks a worker for every job it is sent.
 
 Starting Python, loading Numba and reading machine code back takes a second; a fork takes a hundredth of
-it. Spoken over a socket that keeps messages apart, `python -m evolution.experiments.fork_server <number of the socket>`:
+it. Spoken over a socket that keeps messages apart; its number is the only argument:
 
     to it       {"arguments": [...], "log": "..."}
     from it     {"ready": true} once; {"started": pid} with a pidfd for every job;

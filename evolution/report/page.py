@@ -1,7 +1,7 @@
 """The page that shows an experiment: one HTML file that needs nothing else, not even a network.
 
 All numbers come from `evolution.results.analysis`; here they become text, tables and pictures, and a template
-(report_template.html) arranges them. The same experiment gives the same page.
+(template.html) arranges them. The same experiment gives the same page.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES
 from evolution.runs.storage import make_folder, write_atomically
 
-TEMPLATE: Final = "report_template.html"
+TEMPLATE: Final = "template.html"
 # Where `wordarm lineage` and `wordarm behaviour` put what they draw, and what it shows.
 FIGURE_FOLDERS: Final = {"lineage": "Its line of ancestors", "behaviour": "How it does it"}
 

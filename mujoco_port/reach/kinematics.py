@@ -8,8 +8,8 @@ The hand's position is met exactly, its heading and roll as nearly as the postur
 Per target one proximal Gauss-Newton step on the whole problem (`inertia` holds on to the last posture,
 without it the redundant joints oscillate), then Newton steps on the position alone until the error is
 below `TOLERANCE`.
-Both are the quadratic programme of `mujoco_port.reach.quadratic`. Between two targets of a path no joint turns by
-more than `MAX_TURN`, where that lets the hand arrive.
+Both are the quadratic programme of `quadratic.py`. Between two targets of a path no joint turns by more
+than `MAX_TURN`, where that lets the hand arrive.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 wordarm workspace --search --scale 0.0019
 
 The search varies the place of the robot's root, the rest posture with its weights, and the weights of
-heading and roll. It starts from the record as it stands and lowers the cost of `mujoco_port.reach.wishes`. The
+heading and roll. It starts from the record as it stands and lowers the cost of `wishes.py`. The
 method is CMA-ES; the same seed gives the same record.
 """
 

@@ -41,7 +41,7 @@ def hand_targets(
         plane: The map.
         alpha_deg: [...].
         beta_deg: [...].
-        above: [...], how far the hand has to stay above an object, from 0 to 1 (`mujoco_port.acting.stepping_over`).
+        above: [...], how far the hand has to stay above an object, from 0 to 1 (`acting.stepping_over`).
     """
     tip = plane.scale * tip_in_plane(alpha_deg, beta_deg)
     height = np.broadcast_to(hand_height(plane, beta_deg, above), tip.shape[:-1])

@@ -3,13 +3,13 @@
 import imageio.v2 as imageio
 import numpy as np
 import pytest
-from controllers import one_trial, steady_controller
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from arm2d import draw_state, record_trial, render_video
 from arm2d.drawing import OBJECT_COLOURS, Scene, arm_points, state_at
 from arm2d.video import Panel
+from tests.arm2d.controllers import one_trial, steady_controller
 
 
 @pytest.fixture(scope="module")

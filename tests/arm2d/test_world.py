@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from controllers import one_trial, steady_controller
 
 from arm2d import ActionWord, ObjectWord, Readings, record_trial
+from tests.arm2d.controllers import one_trial, steady_controller
 
 MOVE, TOUCH, INDICATE, IGNORE = ActionWord
 BLUE, GREEN, RED = ObjectWord

@@ -1,9 +1,9 @@
 import shutil
 
 import pytest
-from small_runs import SMALL
 
 from evolution.runs.run import evolve
+from tests.evolution.small_runs import SMALL
 
 
 @pytest.fixture(scope="session")

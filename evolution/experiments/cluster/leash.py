@@ -1,4 +1,4 @@
-"""A job's process on a worker's machine, which ends with the worker: `python -m evolution.experiments.cluster.leash`.
+"""A job's process on a worker's machine, which ends with the worker.
 
 The worker holds the other end of our standard input. However it dies, the kernel closes that end; the job is
 then told to stop, in good order and with a checkpoint, and gives the run free for whoever goes on with it.

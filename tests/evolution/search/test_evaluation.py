@@ -4,13 +4,13 @@ import json
 
 import numpy as np
 import pytest
-from small_runs import SMALL
 
 from arm2d import Condition, Readings
 from evolution.report.evaluation import rows_of, terminal_table, to_csv, to_json
 from evolution.runs.sources import Source
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import evaluate
+from tests.evolution.small_runs import SMALL
 
 GENOTYPES = np.random.default_rng(4).random((3, 84))
 

@@ -5,12 +5,12 @@ import signal
 import time
 
 import pytest
-from small_runs import SMALL_FLAGS, contents
 
 from evolution.experiments import workers
 from evolution.experiments.jobs import MOST_RESTARTS, Watcher, finished_files, run_jobs
 from evolution.experiments.workers import Job
 from evolution.runs.folder import LOCK
+from tests.evolution.small_runs import SMALL_FLAGS, contents
 
 
 @pytest.fixture

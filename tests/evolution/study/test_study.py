@@ -27,7 +27,7 @@ from evolution.study.results import write_study
 from evolution.study.table import group, nearest, run_rows, variant_rows
 from evolution.study.variants import FACTORS, around, confirmation, finalists, screening
 
-LEDGER = (Path(__file__).parents[2] / "docs" / "ledger.md").read_text(encoding="utf-8")
+LEDGER = (Path(__file__).parents[3] / "docs" / "ledger.md").read_text(encoding="utf-8")
 SETTINGS = Settings(population=12, elites=2, parents=6, generations=40)
 
 

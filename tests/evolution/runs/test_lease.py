@@ -70,8 +70,8 @@ def test_a_lease_that_cannot_be_read_is_waited_for_like_any_other(content, tmp_p
 def holder_process(folder, renewal=15.0):
     """A real process that holds a folder, and has said so."""
     code = (
-        "import sys, time; from pathlib import Path; from evolution import lease; from evolution.runs.lock import "
-        f"locked\nlease.RENEWAL = {renewal}\nwith locked(Path(sys.argv[1])):\n"
+        "import sys, time; from pathlib import Path; from evolution.runs import lease; "
+        f"from evolution.runs.lock import locked\nlease.RENEWAL = {renewal}\nwith locked(Path(sys.argv[1])):\n"
         "    print('held', flush=True); time.sleep(60)"
     )
     process = subprocess.Popen(

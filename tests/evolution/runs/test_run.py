@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from small_runs import SMALL, contents
+from tests.evolution.small_runs import SMALL, contents
 
 from evolution.runs import meta
 from evolution.runs.folder import RunFolder
@@ -133,13 +133,13 @@ def test_meta_tells_each_start_and_end(tmp_path):
 def test_asking_for_the_revision_leaves_the_index_alone(tmp_path):
     """A process killed while git has the index locked would leave the lock in the user's checkout."""
     package = tmp_path / "evolution"
-    shutil.copytree(Path(meta.__file__).parent, package, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(Path(meta.__file__).parents[1], package, ignore=shutil.ignore_patterns("__pycache__"))
     git = ("git", "-C", str(tmp_path), "-c", "user.name=a", "-c", "user.email=a@b")
     for arguments in (["init", "-q"], ["add", "."], ["commit", "-qm", "first"]):
         subprocess.run([*git, *arguments], check=True)
     index = tmp_path / ".git" / "index"
     before = index.stat().st_mtime_ns, index.stat().st_ino
-    os.utime(package / "run.py", (1, 1))  # git would note in the index that it is unchanged all the same
+    os.utime(package / "runs" / "run.py", (1, 1))  # git would note in the index that it is unchanged all the same
     code = "from evolution.runs.meta import revision; print(revision())"
     environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
     asked = [sys.executable, "-c", code]
@@ -153,5 +153,5 @@ def test_asking_for_the_revision_leaves_the_index_alone(tmp_path):
     clean = revision()
     assert re.fullmatch("[0-9a-f]{12}", clean)
     assert (index.stat().st_mtime_ns, index.stat().st_ino) == before
-    (package / "run.py").write_text("changed")
+    (package / "runs" / "run.py").write_text("changed")
     assert revision() == f"{clean}-dirty"

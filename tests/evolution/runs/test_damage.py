@@ -1,7 +1,7 @@
 import shutil
 
 import pytest
-from small_runs import SMALL, contents
+from tests.evolution.small_runs import SMALL, contents
 
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history

@@ -1,7 +1,7 @@
 """The same bits however many processes share the runs; other processors are in test_golden.py."""
 
 import pytest
-from small_runs import contents
+from tests.evolution.small_runs import contents
 
 from arm2d import Condition
 from evolution.experiments.plan import Plan

@@ -4,12 +4,12 @@ import os
 
 import numpy as np
 import pytest
-from small_runs import SMALL
 
 from evolution.cli import main
 from evolution.runs.folder import RunFolder
 from evolution.runs.lock import locked
 from evolution.runs.run import Watcher, evolve
+from tests.evolution.small_runs import SMALL
 
 HOW = "parents, best genotypes and champions compared in all\n"
 

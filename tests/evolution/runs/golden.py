@@ -2,7 +2,7 @@
 
 They change only when the world or the algorithm is meant to change; then remake them with
 
-    python tests/evolution/golden.py
+    python tests/evolution/runs/golden.py
 """
 
 import hashlib
@@ -20,7 +20,7 @@ from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
 STORED = Path(__file__).with_name("golden.json")
-EVOLVED = Path(__file__).parents[1] / "evolved.npz"
+EVOLVED = Path(__file__).parents[2] / "evolved.npz"
 # Every alternative of the ledger; tests/test_ledger.py holds the ledger against it.
 ALTERNATIVES = {
     "mutation_probability": [0.04],

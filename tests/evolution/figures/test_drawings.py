@@ -16,7 +16,7 @@ from evolution.cli import main
 from evolution.figures.lineage import lineage_figure
 from evolution.figures.page import LARGEST_DRAWING, png_bytes, shortened, svg_bytes
 
-DOCS = Path(__file__).parents[2] / "docs"
+DOCS = Path(__file__).parents[3] / "docs"
 LIMIT = 500_000
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from small_runs import SMALL
+from tests.evolution.small_runs import SMALL
 
 from arm2d import Condition, Readings
 from evolution.runs import arrays, genotype_files, sources

@@ -8,7 +8,8 @@ import sys
 import time
 
 import pytest
-from small_runs import SMALL_FLAGS, contents
+
+from tests.evolution.small_runs import SMALL_FLAGS, contents
 
 pytestmark = pytest.mark.slow
 COMMAND = [sys.executable, "-m", "evolution", "evolve", *SMALL_FLAGS]

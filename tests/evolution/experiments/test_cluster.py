@@ -6,8 +6,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from dask_processes import DaskProcesses, parent_of, wait_for
-from small_runs import SMALL, SMALL_FLAGS, contents
 
 from evolution.cli import main
 from evolution.experiments.cluster import connection
@@ -18,6 +16,8 @@ from evolution.experiments.jobs import Watcher
 from evolution.experiments.standing import is_held
 from evolution.experiments.workers import Job
 from evolution.runs.folder import LOCK
+from tests.evolution.experiments.dask_processes import DaskProcesses, parent_of, wait_for
+from tests.evolution.small_runs import SMALL, SMALL_FLAGS, contents
 
 pytestmark = pytest.mark.slow
 

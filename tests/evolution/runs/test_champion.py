@@ -1,5 +1,5 @@
 import numpy as np
-from small_runs import SMALL
+from tests.evolution.small_runs import SMALL
 
 from arm2d import NON_EXPERIENCED
 from evolution.runs import champion

@@ -10,7 +10,7 @@ import pytest
 from evolution.results.records import FITNESS_LIMIT, PLATEAU_TOLERANCE
 from evolution.results.statistics import sign_flip_test
 
-DOCS = Path(__file__).parents[1] / "docs"
+DOCS = Path(__file__).parents[3] / "docs"
 PAGE = (DOCS / "readings.md").read_text(encoding="utf-8")
 FLOWING = " ".join(PAGE.split())
 NAMES = {

@@ -196,7 +196,7 @@ def test_a_file_that_is_none_is_told_too(content, tmp_path, capsys):
     assert capsys.readouterr().err.startswith(f"wordarm: {path}: ")
 
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 BLOCKS = re.findall(r"```toml\n(.*?)```", (ROOT / "docs" / "experiments.md").read_text(), re.DOTALL)
 
 
