@@ -6,8 +6,9 @@ import numpy as np
 
 from arm2d.arithmetic import sigmoid
 from arm2d.compiling import compiled
-from arm2d.constants import BETA_MAX, N_INTER, N_OBJECTS, VIEW_HALF_WIDTH
+from arm2d.constants import BETA_MAX, N_INTER, N_OBJECTS
 from arm2d.kernel import lanes as at
+from arm2d.kernel.camera_at_end import see_targets, sense_camera_at_end
 from arm2d.kernel.contact import place_disc, set_limit, touch_discs
 from arm2d.kernel.controller import (
     INTER_BIAS,
@@ -27,6 +28,7 @@ from arm2d.kernel.scores import (
     remember_stretch,
     score_step,
     set_criterion,
+    target_in_view,
 )
 from arm2d.kernel.world import N_BETA_KEYS, World, WorldTables
 
@@ -97,19 +99,24 @@ def _run_network(
     steps = 0
     while active > 0:
         width = (active + BLOCK - 1) // BLOCK * BLOCK
-        sense_camera(s, n, width, world.white_right, world.white_left)
+        if world.from_end:
+            sense_camera_at_end(s, n, width, world)
+        else:
+            sense_camera(s, n, width, world.white_right, world.white_left)
         gather_drives(s, n, d, width, touch, camera, bend)
         think(s, width, network)
         if turn(s, n, width, network, world.turn) > 0:
             touch_discs(s, n, active, world, tables.beta_sines, objects)
+        if world.from_end:
+            see_targets(s, n, active, objects)
         if steps < len(recording):
             record_step(s, n, recording[steps])
         if world.best_stretch:
-            remember_stretch(s, active)
+            remember_stretch(s, n, active, world)
         if changing:
-            _change_words(s, n, d, active, trials, words)
+            _change_words(s, n, d, active, trials, world, words)
         steps += 1
-        if score_step(s, n, width, world.keep) == 0:
+        if score_step(s, n, width, world.keep, world.from_end) == 0:
             continue
         i = 0
         while i < active:
@@ -157,6 +164,7 @@ def _start(
     n[at.COLLIDED + i] = 0
     n[at.STEP + i] = 0
     n[at.DONE + i] = 0
+    n[at.SEEN + i] = 0
     s[at.RUN + i] = 0.0
     s[at.BEST + i] = 0.0
     s[at.STRETCH + i] = 0.0
@@ -173,7 +181,9 @@ def _hear(d: Floats, i: int, instruction: Integers, words: Floats) -> None:
 
 
 @compiled(allocates=False)
-def _change_words(s: Floats, n: Integers, d: Floats, lanes: int, trials: TrialArrays, words: Floats) -> None:
+def _change_words(
+    s: Floats, n: Integers, d: Floats, lanes: int, trials: TrialArrays, world: World, words: Floats
+) -> None:
     """Change the instruction where the drawn number of steps has passed since the target was seen."""
     for i in range(lanes):
         delay = trials.delay[n[at.TRIAL + i]]
@@ -181,7 +191,7 @@ def _change_words(s: Floats, n: Integers, d: Floats, lanes: int, trials: TrialAr
             continue
         if n[at.WAIT + i] != at.NOT_SEEN:
             n[at.WAIT + i] -= 1
-        elif offset_from_target(s, i) <= VIEW_HALF_WIDTH:
+        elif target_in_view(s, n, i, world):
             n[at.WAIT + i] = delay
         if n[at.WAIT + i] == 0:
             n[at.WAIT + i] = at.CHANGED
