@@ -18,8 +18,10 @@ from arm2d.kernel.lanes import (
     HIGH,
     LOW,
     N_LANES,
+    NEAR,
     SEEN,
     TRIAL,
+    TURN,
     Floats,
     Integers,
 )
@@ -27,36 +29,34 @@ from arm2d.kernel.world import World
 
 
 @compiled(allocates=False)
-def sense_camera_at_end(s: Floats, n: Integers, lanes: int, world: World) -> None:
-    """Set the nine camera bits of each lane, as `sense_camera` does for a camera at J1."""
+def look_from_end(s: Floats, n: Integers, lanes: int, objects: Integers, world: World) -> None:
+    """After a step, set camera bits and SEEN of each lane where S1 turned or a disc may have moved."""
     for i in range(lanes):
-        alpha = s[ALPHA + i]
-        bits = white_bits(alpha, world.white_right, world.white_left)
-        for disc in range(N_OBJECTS):
-            at = disc * N_LANES + i
-            if s[LOW + at] - alpha <= VIEW_HALF_WIDTH and s[HIGH + at] - alpha >= -VIEW_HALF_WIDTH:
-                low, high = _seen_interval(s[BEARING + at] - alpha, s[DISTANCE + at], world)
-                bits |= sector_bits(low, high) << disc
-        n[CAMERA + i] = bits
+        if s[TURN + i] != 0.0 or n[NEAR + i] != 0:
+            look_in_lane(s, n, i, objects[n[TRIAL + i]], world)
 
 
 @compiled(allocates=False)
-def see_targets(s: Floats, n: Integers, lanes: int, objects: Integers) -> None:
-    """Note in which lanes the target's centre is in view."""
-    for i in range(lanes):
-        at = objects[n[TRIAL + i]] * N_LANES + i
-        from_j1 = s[BEARING + at] - s[ALPHA + i]
-        seen = False
-        if -VIEW_HALF_WIDTH <= from_j1 <= VIEW_HALF_WIDTH:
-            offset, _ = _from_end(from_j1, s[DISTANCE + at])
-            seen = -VIEW_HALF_WIDTH <= offset <= VIEW_HALF_WIDTH
-        n[SEEN + i] = 1 if seen else 0
+def look_in_lane(s: Floats, n: Integers, i: int, target: int, world: World) -> None:
+    """Set the nine camera bits of lane i for its next step, and whether the target's centre is in view."""
+    alpha = s[ALPHA + i]
+    bits, seen = white_bits(alpha, world.white_right, world.white_left), 0
+    for disc in range(N_OBJECTS):
+        at = disc * N_LANES + i
+        if s[LOW + at] - alpha > VIEW_HALF_WIDTH or s[HIGH + at] - alpha < -VIEW_HALF_WIDTH:
+            continue
+        offset, squared = _from_end(s[BEARING + at] - alpha, s[DISTANCE + at])
+        low, high = _seen_interval(offset, squared, world)
+        bits |= sector_bits(low, high) << disc
+        if disc == target and -VIEW_HALF_WIDTH <= offset <= VIEW_HALF_WIDTH:
+            seen = 1
+    n[CAMERA + i] = bits
+    n[SEEN + i] = seen
 
 
 @compiled(allocates=False)
-def _seen_interval(from_j1: float, distance: float, world: World) -> tuple[float, float]:
-    """From where to where a disc is seen, relative to S1 [deg]; its centre is given as seen from J1."""
-    offset, squared = _from_end(from_j1, distance)
+def _seen_interval(offset: float, squared: float, world: World) -> tuple[float, float]:
+    """From where to where a disc is seen, relative to S1 [deg], by its centre's `_from_end`."""
     if not world.any_part:
         return offset, offset
     beyond = squared - world.radius * world.radius

@@ -8,7 +8,7 @@ from arm2d.arithmetic import sigmoid
 from arm2d.compiling import compiled
 from arm2d.constants import BETA_MAX, N_INTER, N_OBJECTS
 from arm2d.kernel import lanes as at
-from arm2d.kernel.camera_at_end import see_targets, sense_camera_at_end
+from arm2d.kernel.camera_at_end import look_from_end, look_in_lane
 from arm2d.kernel.contact import place_disc, set_limit, touch_discs
 from arm2d.kernel.controller import (
     INTER_BIAS,
@@ -99,18 +99,16 @@ def _run_network(
     steps = 0
     while active > 0:
         width = (active + BLOCK - 1) // BLOCK * BLOCK
-        if world.from_end:
-            sense_camera_at_end(s, n, width, world)
-        else:
+        if not world.from_end:
             sense_camera(s, n, width, world.white_right, world.white_left)
         gather_drives(s, n, d, width, touch, camera, bend)
         think(s, width, network)
         if turn(s, n, width, network, world.turn) > 0:
             touch_discs(s, n, active, world, tables.beta_sines, objects)
-        if world.from_end:
-            see_targets(s, n, active, objects)
         if steps < len(recording):
             record_step(s, n, recording[steps])
+        if world.from_end:
+            look_from_end(s, n, active, objects, world)
         if world.best_stretch:
             remember_stretch(s, n, active, world)
         if changing:
@@ -157,6 +155,8 @@ def _start(
         n[at.SIDE + disc * N_LANES + i] = at.NONE
         place_disc(s, disc * N_LANES + i, trials.bearing[trial, disc], trials.distance[trial, disc], world)
     set_limit(s, i, world)
+    if world.from_end:
+        look_in_lane(s, n, i, trials.object[trial], world)
     s[at.TARGET + i] = trials.bearing[trial, trials.object[trial]]
     s[at.FIRST_OFFSET + i] = offset_from_target(s, i)
     n[at.TOUCH + i] = 0
@@ -164,7 +164,6 @@ def _start(
     n[at.COLLIDED + i] = 0
     n[at.STEP + i] = 0
     n[at.DONE + i] = 0
-    n[at.SEEN + i] = 0
     s[at.RUN + i] = 0.0
     s[at.BEST + i] = 0.0
     s[at.STRETCH + i] = 0.0
