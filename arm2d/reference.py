@@ -17,7 +17,16 @@ from numpy.typing import ArrayLike
 from arm2d import constants as c
 from arm2d.arithmetic import sigmoid
 from arm2d.controller import decode
-from arm2d.geometry import Point, bearing_of, distance_from_end, from_s2, offset_from_end, offset_of, s2_pose, to_s2
+from arm2d.geometry import (
+    Point,
+    bearing_of,
+    distance_from_end,
+    from_s2,
+    offset_from_end,
+    offset_of,
+    s2_pose,
+    to_s2,
+)
 from arm2d.instructions import ACTION_CODES, OBJECT_CODES, ActionWord, Instruction
 from arm2d.readings import Readings
 
@@ -209,7 +218,9 @@ def touch(
     return discs, sides
 
 
-def _is_good(action: ActionWord, offset: float, in_view: bool, side: Side, turned: float, r: Readings) -> bool:
+def _is_good(
+    action: ActionWord, offset: float, in_view: bool, side: Side, turned: float, r: Readings
+) -> bool:
     """Whether the step counts for F2 (spec section 8)."""
     if action is ActionWord.INDICATE:
         return offset < r.indicate_cone and not side
