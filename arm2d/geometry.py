@@ -3,7 +3,7 @@
 Lengths in [cm], angles in [deg]; a pose is (x, y) of J2 and S2's unit vector.
 """
 
-from math import atan2, cos, degrees, radians, sin
+from math import atan2, cos, degrees, hypot, radians, sin
 
 from arm2d import constants as c
 
@@ -31,6 +31,19 @@ def from_s2(pose: Pose, u: float, v: float) -> Point:
 def bearing_of(point: Point) -> float:
     """Direction from J1 in [-90, 270) degrees."""
     return (degrees(atan2(point[1], point[0])) + 90.0) % 360.0 - 90.0
+
+
+def offset_from_end(alpha: float, point: Point) -> float:
+    """Bearing of a point from the end of S1 (J2), relative to S1, in (-180, 180] degrees."""
+    joint = s2_pose(alpha, 0.0)
+    away = (bearing_of((point[0] - joint[0], point[1] - joint[1])) - alpha) % 360.0
+    return away if away <= 180.0 else away - 360.0
+
+
+def distance_from_end(alpha: float, point: Point) -> float:
+    """Distance of a point from the end of S1 (J2) [cm]."""
+    joint = s2_pose(alpha, 0.0)
+    return hypot(point[0] - joint[0], point[1] - joint[1])
 
 
 def offset_of(alpha: float, point: Point) -> float:

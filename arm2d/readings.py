@@ -28,12 +28,17 @@ class Readings:
     """Standard deviation of a mutation's Gaussian offset, printed as 0.1; 0.03 with probability 0.4
     takes the same total step as 0.04 with 0.1."""
 
-    parent_scaling: Literal["raw", "cubed"] = "raw"
-    """"fitness-proportional": parents are drawn in proportion to their fitness or to its cube."""
+    parent_scaling: Literal["raw", "cubed", "excess", "rank"] = "raw"
+    """"fitness-proportional": parents are drawn in proportion to their fitness, to its cube, to what it
+    exceeds that of the best genotype that cannot be a parent by, or to their rank from 2 down to 0."""
 
     ties: Literal["elders", "children"] = "elders"
     """Not said: of equally fit genotypes those copied on unchanged rank before their children, or after
     them. If before, three elites at a fitness that all good genotypes reach are never replaced."""
+
+    crossover: float = 0.0
+    """Only selection, elitism and mutation are named: no crossover. Else the probability that a child takes
+    the genes after a random cut from a second parent, before mutation."""
 
     bias_ranges: Literal["symmetric", "negative"] = "symmetric"
     """"[-4, -4]" and "[-5, -5]", both empty: [-4, 4] and [-5, 5]; or beta_I in [-4, -2]."""
@@ -62,6 +67,10 @@ class Readings:
 
     object_vision: Literal["centre", "any_part"] = "centre"
     """"falls within the sector": the disc's centre does, or any part of the disc."""
+
+    camera_origin: Literal["J1", "end"] = "J1"
+    """"the camera and S1 move together": bearings of the discs are as seen from J1, or from the end of S1,
+    where "in view" then is judged from too. From there an object is seen only when S1 nearly points at it."""
 
     turn: Literal["degrees", "radians"] = "degrees"
     """2.9, 4.6 and 34.4 degrees as printed, or the 0.05, 0.08 and 0.6 rad that round to them."""
@@ -96,6 +105,7 @@ class Readings:
         _check_geometry(self)
         _check_interval("mutation_probability", self.mutation_probability, 0.0, 1.0)
         _check_interval("mutation_sd", self.mutation_sd, 0.0, 1.0)
+        _check_interval("crossover", self.crossover, 0.0, 1.0)
         _check_interval("tau_exponent_max", self.tau_exponent_max, -1.0, 3.0)
 
     @classmethod

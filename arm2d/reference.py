@@ -17,7 +17,16 @@ from numpy.typing import ArrayLike
 from arm2d import constants as c
 from arm2d.arithmetic import sigmoid
 from arm2d.controller import decode
-from arm2d.geometry import Point, bearing_of, from_s2, offset_of, s2_pose, to_s2
+from arm2d.geometry import (
+    Point,
+    bearing_of,
+    distance_from_end,
+    from_s2,
+    offset_from_end,
+    offset_of,
+    s2_pose,
+    to_s2,
+)
 from arm2d.instructions import ACTION_CODES, OBJECT_CODES, ActionWord, Instruction
 from arm2d.readings import Readings
 
@@ -68,7 +77,7 @@ def run_trial(
         placed, sides = touch(alpha, beta, new_alpha, new_beta, placed, sides, r.object_radius)
         turned, alpha, beta = new_alpha - alpha, new_alpha, new_beta
         offset = offset_of(alpha, placed[target])
-        in_view = offset <= c.VIEW_HALF_WIDTH
+        in_view = sees(alpha, placed[target], r)
         if in_view:
             stretch = max(stretch, 1.0 - beta / c.BETA_MAX)
             countdown = delay + 1 if countdown is None else countdown
@@ -76,14 +85,14 @@ def run_trial(
             countdown -= 1
             heard = later if countdown == 0 else heard
         collided = any(side for disc, side in enumerate(sides) if disc != target)
-        if _is_good(instruction.action, offset, sides[target], turned, r):
+        if _is_good(instruction.action, offset, in_view, sides[target], turned, r):
             run += turned if instruction.action is ActionWord.MOVE else 1.0
         elif r.run_counting == "uninterrupted":
             run = 0.0
         best = max(best, abs(run))
         if best >= goal - c.THRESHOLD_TOLERANCE or collided:
             break
-    return _score(instruction.action, first_offset, offset, collided, best, beta, stretch, step, r)
+    return _score(instruction.action, first_offset, offset, in_view, collided, best, beta, stretch, step, r)
 
 
 def controller(genotype: ArrayLike, readings: Readings) -> Callable[[Sequence[float]], tuple[float, float]]:
@@ -141,10 +150,7 @@ def sense(
     """I1 to I18 (spec section 4)."""
     sectors = [[False] * 3 for _ in range(3)]
     for disc, centre in enumerate(discs):
-        bearing, half = bearing_of(centre), 0.0
-        if r.object_vision == "any_part":
-            half = degrees(asin(r.object_radius / hypot(*centre)))
-        low, high = bearing - half - alpha, bearing + half - alpha
+        low, high = _seen_interval(alpha, centre, r)
         inner, outer = c.MIDDLE_SECTOR_HALF_WIDTH, c.VIEW_HALF_WIDTH
         sectors[0][disc] = low < -inner and high >= -outer
         sectors[1][disc] = low <= inner and high >= -inner
@@ -157,6 +163,26 @@ def sense(
     touch = [RIGHT in sides, LEFT in sides]
     words = [*OBJECT_CODES[heard.object], *ACTION_CODES[heard.action]]
     return [*map(float, touch + sum(sectors, [])), beta / c.BETA_MAX, *map(float, words)]  # noqa: RUF017
+
+
+def _seen_interval(alpha: float, centre: Point, r: Readings) -> tuple[float, float]:
+    """From where to where the camera sees a disc, relative to its direction [deg]."""
+    if r.camera_origin == "end":
+        offset, distance = offset_from_end(alpha, centre), distance_from_end(alpha, centre)
+    else:
+        offset, distance = bearing_of(centre) - alpha, hypot(*centre)
+    if r.object_vision == "centre":
+        return offset, offset
+    if distance <= r.object_radius:
+        return -180.0, 180.0
+    half = degrees(asin(r.object_radius / distance))
+    return offset - half, offset + half
+
+
+def sees(alpha: float, centre: Point, r: Readings) -> bool:
+    """Whether a disc is in view: its centre lies in the camera's field."""
+    offset = abs(offset_from_end(alpha, centre)) if r.camera_origin == "end" else offset_of(alpha, centre)
+    return offset <= c.VIEW_HALF_WIDTH
 
 
 def touch(
@@ -192,7 +218,9 @@ def touch(
     return discs, sides
 
 
-def _is_good(action: ActionWord, offset: float, side: Side, turned: float, r: Readings) -> bool:
+def _is_good(
+    action: ActionWord, offset: float, in_view: bool, side: Side, turned: float, r: Readings
+) -> bool:
     """Whether the step counts for F2 (spec section 8)."""
     if action is ActionWord.INDICATE:
         return offset < r.indicate_cone and not side
@@ -200,7 +228,7 @@ def _is_good(action: ActionWord, offset: float, side: Side, turned: float, r: Re
         return offset < r.target_cone and side == RIGHT and turned == 0.0
     if action is ActionWord.MOVE:
         return offset < r.target_cone and side == RIGHT
-    return offset > c.VIEW_HALF_WIDTH and not side
+    return not in_view and not side
 
 
 def _goal(action: ActionWord, r: Readings) -> float:
@@ -214,6 +242,7 @@ def _score(
     action: ActionWord,
     first_offset: float,
     offset: float,
+    in_view: bool,
     collided: bool,
     best: float,
     beta: float,
@@ -222,7 +251,7 @@ def _score(
     r: Readings,
 ) -> Score:
     """F1 to F3 at the end of the trial."""
-    in_view, on_target = offset <= c.VIEW_HALF_WIDTH, float(offset < r.target_cone)
+    on_target = float(offset < r.target_cone)
     penalty = c.COLLISION_FACTOR if collided else 1.0
     ratio = (first_offset - offset) / first_offset if first_offset > 0.0 else 0.0
     if action is ActionWord.IGNORE:

@@ -139,15 +139,20 @@ def sense_camera(s: Floats, n: Integers, lanes: int, right: float, left: float) 
     """Set the nine camera bits of each lane; alpha at or beyond `right` or `left` [deg] sees white."""
     for i in range(lanes):
         alpha = s[ALPHA + i]
-        blue = _sector_bits(s[LOW + i] - alpha, s[HIGH + i] - alpha)
-        green = _sector_bits(s[LOW + N_LANES + i] - alpha, s[HIGH + N_LANES + i] - alpha)
-        red = _sector_bits(s[LOW + 2 * N_LANES + i] - alpha, s[HIGH + 2 * N_LANES + i] - alpha)
-        white = (0o007 if alpha <= right else 0) | (0o700 if alpha >= left else 0)
-        n[CAMERA + i] = white | blue | green << 1 | red << 2
+        blue = sector_bits(s[LOW + i] - alpha, s[HIGH + i] - alpha)
+        green = sector_bits(s[LOW + N_LANES + i] - alpha, s[HIGH + N_LANES + i] - alpha)
+        red = sector_bits(s[LOW + 2 * N_LANES + i] - alpha, s[HIGH + 2 * N_LANES + i] - alpha)
+        n[CAMERA + i] = white_bits(alpha, right, left) | blue | green << 1 | red << 2
 
 
 @compiled(allocates=False)
-def _sector_bits(low: float, high: float) -> int:
+def white_bits(alpha: float, right: float, left: float) -> int:
+    """All bits of the sectors that are white; alpha at or beyond `right` or `left` [deg] sees white."""
+    return (0o007 if alpha <= right else 0) | (0o700 if alpha >= left else 0)
+
+
+@compiled(allocates=False)
+def sector_bits(low: float, high: float) -> int:
     """Bits 0, 3 and 6: the sectors that meet [low, high], bearings relative to the camera [deg]."""
     first = (low < -MIDDLE_SECTOR_HALF_WIDTH) & (high >= -VIEW_HALF_WIDTH)
     middle = (low <= MIDDLE_SECTOR_HALF_WIDTH) & (high >= -MIDDLE_SECTOR_HALF_WIDTH)

@@ -6,8 +6,9 @@ import numpy as np
 
 from arm2d.arithmetic import sigmoid
 from arm2d.compiling import compiled
-from arm2d.constants import BETA_MAX, N_INTER, N_OBJECTS, VIEW_HALF_WIDTH
+from arm2d.constants import BETA_MAX, N_INTER, N_OBJECTS
 from arm2d.kernel import lanes as at
+from arm2d.kernel.camera_at_end import look_from_end, look_in_lane
 from arm2d.kernel.contact import place_disc, set_limit, touch_discs
 from arm2d.kernel.controller import (
     INTER_BIAS,
@@ -27,6 +28,7 @@ from arm2d.kernel.scores import (
     remember_stretch,
     score_step,
     set_criterion,
+    target_in_view,
 )
 from arm2d.kernel.world import N_BETA_KEYS, World, WorldTables
 
@@ -97,19 +99,22 @@ def _run_network(
     steps = 0
     while active > 0:
         width = (active + BLOCK - 1) // BLOCK * BLOCK
-        sense_camera(s, n, width, world.white_right, world.white_left)
+        if not world.from_end:
+            sense_camera(s, n, width, world.white_right, world.white_left)
         gather_drives(s, n, d, width, touch, camera, bend)
         think(s, width, network)
         if turn(s, n, width, network, world.turn) > 0:
             touch_discs(s, n, active, world, tables.beta_sines, objects)
         if steps < len(recording):
             record_step(s, n, recording[steps])
+        if world.from_end:
+            look_from_end(s, n, active, objects, world)
         if world.best_stretch:
-            remember_stretch(s, active)
+            remember_stretch(s, n, active, world)
         if changing:
-            _change_words(s, n, d, active, trials, words)
+            _change_words(s, n, d, active, trials, world, words)
         steps += 1
-        if score_step(s, n, width, world.keep) == 0:
+        if score_step(s, n, width, world.keep, world.from_end) == 0:
             continue
         i = 0
         while i < active:
@@ -150,6 +155,8 @@ def _start(
         n[at.SIDE + disc * N_LANES + i] = at.NONE
         place_disc(s, disc * N_LANES + i, trials.bearing[trial, disc], trials.distance[trial, disc], world)
     set_limit(s, i, world)
+    if world.from_end:
+        look_in_lane(s, n, i, trials.object[trial], world)
     s[at.TARGET + i] = trials.bearing[trial, trials.object[trial]]
     s[at.FIRST_OFFSET + i] = offset_from_target(s, i)
     n[at.TOUCH + i] = 0
@@ -173,7 +180,9 @@ def _hear(d: Floats, i: int, instruction: Integers, words: Floats) -> None:
 
 
 @compiled(allocates=False)
-def _change_words(s: Floats, n: Integers, d: Floats, lanes: int, trials: TrialArrays, words: Floats) -> None:
+def _change_words(
+    s: Floats, n: Integers, d: Floats, lanes: int, trials: TrialArrays, world: World, words: Floats
+) -> None:
     """Change the instruction where the drawn number of steps has passed since the target was seen."""
     for i in range(lanes):
         delay = trials.delay[n[at.TRIAL + i]]
@@ -181,7 +190,7 @@ def _change_words(s: Floats, n: Integers, d: Floats, lanes: int, trials: TrialAr
             continue
         if n[at.WAIT + i] != at.NOT_SEEN:
             n[at.WAIT + i] -= 1
-        elif offset_from_target(s, i) <= VIEW_HALF_WIDTH:
+        elif target_in_view(s, n, i, world):
             n[at.WAIT + i] = delay
         if n[at.WAIT + i] == 0:
             n[at.WAIT + i] = at.CHANGED

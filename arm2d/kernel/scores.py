@@ -27,6 +27,7 @@ from arm2d.kernel.lanes import (
     PUSH,
     RIGHT,
     RUN,
+    SEEN,
     STEP,
     STRETCH,
     TARGET,
@@ -75,7 +76,7 @@ def set_criterion(s: Floats, n: Integers, i: int, action: int, world: World) -> 
 
 
 @compiled(allocates=False)
-def score_step(s: Floats, n: Integers, lanes: int, keep: float) -> int:
+def score_step(s: Floats, n: Integers, lanes: int, keep: float, from_end: bool) -> int:
     """Judge the step just made in each lane; returns how many trials it ended."""
     ended = 0
     for i in range(lanes):
@@ -84,7 +85,8 @@ def score_step(s: Floats, n: Integers, lanes: int, keep: float) -> int:
         away = away if away <= 180.0 else 360.0 - away
         side = n[TARGET_SIDE + i]
         situation = 1 if away < s[CONE + i] else 0
-        situation |= 2 if away <= VIEW_HALF_WIDTH else 0
+        in_view = 1 if away <= VIEW_HALF_WIDTH else 0
+        situation |= 2 * (n[SEEN + i] if from_end else in_view)
         situation |= 4 if side != NONE else 0
         situation |= 8 if side == RIGHT else 0
         situation |= 16 if s[TURN + i] == 0.0 else 0
@@ -108,10 +110,10 @@ def score_step(s: Floats, n: Integers, lanes: int, keep: float) -> int:
 
 
 @compiled(allocates=False)
-def remember_stretch(s: Floats, lanes: int) -> None:
+def remember_stretch(s: Floats, n: Integers, lanes: int, world: World) -> None:
     """Keep the largest 1 - beta / 90 with the target in view; needed by one reading only."""
     for i in range(lanes):
-        if offset_from_target(s, i) <= VIEW_HALF_WIDTH:
+        if target_in_view(s, n, i, world):
             s[STRETCH + i] = max(s[STRETCH + i], 1.0 - s[BETA + i] / BETA_MAX)
 
 
@@ -123,12 +125,20 @@ def offset_from_target(s: Floats, i: int) -> float:
 
 
 @compiled(allocates=False)
+def target_in_view(s: Floats, n: Integers, i: int, world: World) -> bool:
+    """Whether the target's centre lies in the camera's field."""
+    if world.from_end:
+        return n[SEEN + i] == 1
+    return offset_from_target(s, i) <= VIEW_HALF_WIDTH
+
+
+@compiled(allocates=False)
 def final_scores(
     s: Floats, n: Integers, i: int, world: World, action: int
 ) -> tuple[float, float, float, bool]:
     """(F1, F2, F3, success) of the ended trial in lane i."""
     d, first = offset_from_target(s, i), s[FIRST_OFFSET + i]
-    in_view = d <= VIEW_HALF_WIDTH
+    in_view = target_in_view(s, n, i, world)
     if action == IGNORE:
         f1 = 0.0 if in_view else 1.0
     else:

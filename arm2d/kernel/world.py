@@ -33,6 +33,7 @@ class World(NamedTuple):
         white_right: The camera's right sector is white while alpha is at most this [deg].
         white_left: Its left sector is white while alpha is at least this [deg].
         any_part: Whether any part of a disc is seen, or only its centre.
+        from_end: Whether the camera sits at the end of S1, not at J1.
         target_cone: Largest distance from the target that is on target [deg].
         indicate_cone: The same for INDICATE's good steps [deg].
         move_angle: How far a full MOVE pushes [deg].
@@ -54,6 +55,7 @@ class World(NamedTuple):
     white_right: float
     white_left: float
     any_part: bool
+    from_end: bool
     target_cone: float
     indicate_cone: float
     move_angle: float
@@ -86,6 +88,7 @@ def world_of(readings: Readings) -> World:
         white_right=c.ALPHA_MIN + (c.VIEW_HALF_WIDTH if near else 0.0),
         white_left=c.ALPHA_MAX - (c.VIEW_HALF_WIDTH if near else 0.0),
         any_part=readings.object_vision == "any_part",
+        from_end=readings.camera_origin == "end",
         target_cone=readings.target_cone,
         indicate_cone=readings.indicate_cone,
         move_angle=readings.move_angle,

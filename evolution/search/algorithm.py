@@ -1,4 +1,4 @@
-"""One generation to the next: rank, keep the elites, choose parents, mutate (section V).
+"""One generation to the next: rank, keep the elites, choose parents, cross, mutate (section V).
 
 Pure functions on arrays; each draw comes from a generator passed in. Axes: P genotypes of a
 generation, C children, 84 genes. Sums are taken one term after the other, so that no bit depends on
@@ -7,6 +7,8 @@ the machine.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,6 +16,18 @@ from arm2d import Readings
 from arm2d.constants import N_GENES
 from evolution.search.gaussian import draw_gaussian
 from evolution.search.settings import Settings
+
+
+class Crossings(NamedTuple):
+    """Which genes of each child come from a second parent.
+
+    Attributes:
+        second_parents: [C], indices into the generation before.
+        cuts: [C], the first gene that is the second parent's; 84 in a child of one parent.
+    """
+
+    second_parents: NDArray[np.int64]
+    cuts: NDArray[np.int64]
 
 
 def initial_genotypes(settings: Settings, rng: np.random.Generator) -> NDArray[np.float64]:
@@ -41,15 +55,25 @@ def choose_parents(
 ) -> NDArray[np.int64]:
     """Whom each genotype of the next generation descends from, [P]: first the elites, then the children.
 
-    The parent of an elite is itself. A child's is drawn with probability proportional to fitness, or
-    to its cube, among the best `settings.parents`; uniformly if none of them scored at all.
+    The parent of an elite is itself. A child's is drawn among the best `settings.parents`, with
+    probability proportional to what the reading `parent_scaling` makes of their fitness.
     """
-    order = rank(fitness, readings)
-    candidates = order[: settings.parents]
-    bounds = np.add.accumulate(_weights(fitness[candidates], readings))
-    draws = rng.random(settings.population - settings.elites) * bounds[-1]  # [C]
-    children = candidates[np.searchsorted(bounds, draws, side="right")]
-    return np.concatenate([order[: settings.elites], children])
+    elites = rank(fitness, readings)[: settings.elites]
+    draws = rng.random(settings.population - settings.elites)  # [C]
+    return np.concatenate([elites, _drawn_parents(draws, fitness, settings, readings)])
+
+
+def choose_crossings(
+    fitness: NDArray[np.float64], settings: Settings, readings: Readings, rng: np.random.Generator
+) -> Crossings:
+    """Second parents, chosen as the first ones are, and where their genes begin: 1 to 83, if at all.
+
+    Numbers are drawn for every child, crossed or not, so that none depends on its siblings.
+    """
+    chances, draws, places = rng.random((3, settings.population - settings.elites))
+    cuts = 1 + (places * (N_GENES - 1)).astype(np.int64)
+    cuts[chances >= readings.crossover] = N_GENES
+    return Crossings(_drawn_parents(draws, fitness, settings, readings), cuts)
 
 
 def breed(
@@ -58,10 +82,17 @@ def breed(
     settings: Settings,
     readings: Readings,
     rng: np.random.Generator,
+    crossings: Crossings | None = None,
 ) -> NDArray[np.float64]:
-    """The next generation [P, 84]: the elites unchanged, then a mutated copy of each other parent."""
+    """The next generation [P, 84]: the elites unchanged, then the children.
+
+    A child is a mutated copy of its parent, or of the parent's genes up to a cut and a second one's after it.
+    """
     offspring = genotypes[parents]
     children = offspring[settings.elites :]
+    if crossings is not None:
+        after = np.arange(N_GENES) >= crossings.cuts[:, np.newaxis]  # [C, 84]
+        children[:] = np.where(after, genotypes[crossings.second_parents], children)
     children[:] = mutate(children, readings.mutation_probability, readings.mutation_sd, rng)
     return offspring
 
@@ -84,8 +115,25 @@ def mutate(
     return mutated
 
 
-def _weights(fitness: NDArray[np.float64], readings: Readings) -> NDArray[np.float64]:
-    """What the chances of becoming a parent are proportional to."""
-    weights = fitness * fitness * fitness if readings.parent_scaling == "cubed" else fitness
+def _drawn_parents(
+    draws: NDArray[np.float64], fitness: NDArray[np.float64], settings: Settings, readings: Readings
+) -> NDArray[np.int64]:
+    """The candidates that numbers in [0, 1) fall to, each with the share of its weight."""
+    order = rank(fitness, readings)
+    candidates = order[: settings.parents]
+    bounds = np.add.accumulate(_weights(fitness[order], settings.parents, readings))
+    return candidates[np.searchsorted(bounds, draws * bounds[-1], side="right")]
+
+
+def _weights(fitness: NDArray[np.float64], n_candidates: int, readings: Readings) -> NDArray[np.float64]:
+    """What the chances of the candidates are proportional to; `fitness` [P] falls. Uniform if all are 0."""
+    weights = candidates = fitness[:n_candidates]
+    if readings.parent_scaling == "cubed":
+        weights = candidates * candidates * candidates
+    elif readings.parent_scaling == "excess":
+        # Where all are candidates, nobody is left to exceed, and the fitness itself counts.
+        weights = candidates - fitness[n_candidates : n_candidates + 1].max(initial=0.0)
+    elif readings.parent_scaling == "rank":
+        weights = 2.0 * np.arange(n_candidates - 1, -1, -1) / max(n_candidates - 1, 1)
     # Below the smallest normal number, products round to zero or up to the sum itself.
     return weights if weights.sum() >= np.finfo(np.float64).tiny else np.ones_like(weights)

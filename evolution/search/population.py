@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.search.algorithm import breed, choose_parents, initial_genotypes
+from evolution.search.algorithm import breed, choose_crossings, choose_parents, initial_genotypes
 from evolution.search.config import RunConfig
 from evolution.search.randomness import Purpose, generator
 
@@ -19,7 +19,8 @@ class Population:
     Attributes:
         generation: Its number, from 0.
         genotypes: [P, 84].
-        parents: [P], each genotype's parent as an index into the generation before; -1 in generation 0.
+        parents: [P], each genotype's parent as an index into the generation before, where there are two
+            (reading `crossover`) the first, whose genes stand before the cut; -1 in generation 0.
     """
 
     generation: int
@@ -47,5 +48,9 @@ def next_population(population: Population, fitness: NDArray[np.float64], config
     draw_parents = generator(config.seed, Purpose.PARENTS, generation)
     draw_mutations = generator(config.seed, Purpose.MUTATION, generation)
     parents = choose_parents(fitness, settings, readings, draw_parents)
-    genotypes = breed(population.genotypes, parents, settings, readings, draw_mutations)
+    crossings = None
+    if readings.crossover > 0.0:
+        draw_crossings = generator(config.seed, Purpose.CROSSOVER, generation)
+        crossings = choose_crossings(fitness, settings, readings, draw_crossings)
+    genotypes = breed(population.genotypes, parents, settings, readings, draw_mutations, crossings)
     return Population(generation, genotypes, parents)

@@ -25,12 +25,13 @@ class Purpose(IntEnum):
     TRANSITIONS = 8
     BEHAVIOUR = 9
     STATISTICS = 10
+    CROSSOVER = 11
 
 
 def generator(seed: int, purpose: Purpose, generation: int = 0) -> np.random.Generator:
     """The generator of one purpose in one generation of the run with this seed.
 
-    For parents and mutations, the generation is that of the children.
+    For parents, crossover and mutations, the generation is that of the children.
     """
     sequence = np.random.SeedSequence(seed, spawn_key=(purpose, generation))
     return np.random.Generator(np.random.PCG64(sequence))
