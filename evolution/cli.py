@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Annotated, Final
 
 import tyro
 from tyro.conf import subcommand
 
 from arm2d import Readings
+from evolution.answers import answer
 from evolution.commands.agree import Agree
 from evolution.commands.analyse import Analyse
 from evolution.commands.behaviour import BehaviourCommand
@@ -40,10 +41,6 @@ from evolution.commands.verify import Verify
 from evolution.commands.workspace import Workspace
 
 DESCRIPTION: Final = "An arm that obeys two-word instructions: evolve its controllers, test them, show them."
-BAD_INPUT: Final = 2
-INTERRUPTED: Final = 130
-BROKEN_PIPE: Final = 141
-LONGEST_SENTENCE: Final = 1000
 
 Command = (
     Evolve
@@ -79,24 +76,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
     return answer(lambda: parse(sys.argv[1:] if arguments is None else arguments).run())
-
-
-def answer(run: Callable[[], int]) -> int:
-    """The exit code of what a command does; what is wrong with its input is printed in one sentence."""
-    try:
-        return run()
-    except BrokenPipeError:
-        # Whoever read our output has seen enough; Python must not complain of it when it ends.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE
-    except (ValueError, OSError) as error:
-        print(f"wordarm: {_sentence(error)}", file=sys.stderr)
-        return BAD_INPUT
-    except MemoryError:
-        print("wordarm: the memory does not suffice; ask for less at once", file=sys.stderr)
-        return BAD_INPUT
-    except KeyboardInterrupt:
-        return INTERRUPTED
 
 
 def parse(arguments: Sequence[str]) -> Command:
@@ -144,13 +123,3 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
         | Annotated[Analyse, subcommand("analyse")]
     )
     return tyro.cli(commands, prog="wordarm", description=DESCRIPTION, args=arguments)  # pyright: ignore
-
-
-def _sentence(error: ValueError | OSError) -> str:
-    """What an error says, on one line, with the file a system call failed on."""
-    text = str(error)
-    if isinstance(error, OSError) and error.filename:
-        text = f"{error.filename}: {error.strerror}"
-    # Whatever a file or a flag holds must neither steer the terminal nor fill it.
-    line = "".join(each if each.isprintable() else "?" for each in " ".join(text.split()))
-    return line if len(line) <= LONGEST_SENTENCE else f"{line[:LONGEST_SENTENCE]} ..."

@@ -10,10 +10,9 @@ from typing import Annotated
 from tyro.conf import arg
 
 from arm2d import Condition, Readings
+from evolution.answers import INTERRUPTED
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-
-INTERRUPTED = 130
 
 
 @dataclass(frozen=True)

@@ -5,19 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import TYPE_CHECKING, Annotated
 
 from tyro.conf import Positional, arg
 
+from evolution.answers import BAD_INPUT, INTERRUPTED
 from evolution.commands.cluster_flags import ClusterFlags
-from evolution.commands.evolve import INTERRUPTED
 
 if TYPE_CHECKING:
     from evolution.experiments.plan import Plan
     from evolution.experiments.spec import ExperimentSpec
     from evolution.experiments.standing import Standing
-
-BAD_INPUT: Final = 2
 
 
 @dataclass(frozen=True)

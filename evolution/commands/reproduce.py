@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Final
 from tyro.conf import arg
 
 from arm2d import Condition
+from evolution.answers import BAD_INPUT, INTERRUPTED
 from evolution.commands.cluster_flags import ClusterFlags
-from evolution.commands.evolve import INTERRUPTED, UncheckedReadings
+from evolution.commands.evolve import UncheckedReadings
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from evolution.runs.interrupt import StopRequest
 
 MOST_RUNS: Final = 10_000
-BAD_INPUT: Final = 2
 
 
 @dataclass(frozen=True)

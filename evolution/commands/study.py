@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Literal
 
 from tyro.conf import Positional
+
+from evolution.answers import BAD_INPUT, INTERRUPTED
 
 if TYPE_CHECKING:
     from arm2d import Readings
@@ -14,9 +16,6 @@ if TYPE_CHECKING:
     from evolution.experiments.plan import Plan
     from evolution.runs.interrupt import StopRequest
     from evolution.study.variants import Part
-
-BAD_INPUT: Final = 2
-INTERRUPTED: Final = 130
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Protocol
 
-from evolution.experiments.workers import BAD_INPUT, ColdStart, Ended, Job, Worker
+from evolution.answers import BAD_INPUT
+from evolution.experiments.workers import ColdStart, Ended, Job, Worker
 from evolution.runs.folder import CHECKPOINT
 
 MOST_RESTARTS: Final = 3  # without progress

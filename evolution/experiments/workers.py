@@ -12,13 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from evolution.answers import SENTENCE_PREFIX
 from evolution.runs.storage import make_folder
 
-BAD_INPUT: Final = 2
 # The exit code of a process whose end nobody saw: its files tell how far it came.
 LOST: Final = 255
-# How the command line begins the one sentence of an error.
-SENTENCE_PREFIX: Final = "wordarm: "
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Final
 
+from evolution.answers import BAD_INPUT
 from evolution.runs.folder import CHAMPIONS, CHECKPOINT, RunFolder
-from evolution.trust.killing import BAD_INPUT, TortureError
+from evolution.trust.killing import TortureError
 from evolution.trust.repair import repair
 from evolution.trust.stages import stage_of, temporaries
 from evolution.trust.tally import Tally

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
+from evolution.answers import BAD_INPUT
 from evolution.runs.storage import make_folder
 from evolution.trust.stages import RUN_FOLDERS, SHARES, Schedule, is_temporary, stage_of, temporaries
 from evolution.trust.tally import ORPHAN, PARENT, STARTER, WORKER, Tally
@@ -27,7 +28,6 @@ WAIT: Final = 0.05  # [s]
 PARENT_SHARE: Final = 0.2
 # A kill is sent so long after a file was opened, at most [s]: before its first byte, or when it is whole.
 LONGEST_DELAY: Final = 0.001
-BAD_INPUT: Final = 2
 TOLD_EVERY: Final = 10  # kills
 
 

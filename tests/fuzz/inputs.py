@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from evolution.cli import answer, main
+from evolution.answers import answer
+from evolution.cli import main
 from evolution.experiments.grid import read_experiment
 from evolution.experiments.plan_file import plan_text, read_plan
 from evolution.experiments.stage_times import stage_times

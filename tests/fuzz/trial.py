@@ -8,10 +8,10 @@ import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from evolution.answers import BAD_INPUT
 from tests.fuzz.inputs import Reader
 from tests.fuzz.places import Place
 
-BAD_INPUT = 2
 # No input may keep its reader busy for longer [s of CPU] ...
 LONGEST = 5
 # ... or make it ask for so much more memory than the process had at first [bytes].
