@@ -45,7 +45,7 @@ def test_touch_is_felt_on_the_side_where_it_was_within_the_last_moments():
 
 def test_geometric_eyes_see_objects_where_the_2d_world_has_them(standing):
     body, discs = standing
-    np.testing.assert_allclose(geometric_eyes(body)(0.0), discs, atol=1e-9)
+    np.testing.assert_allclose(geometric_eyes(body)(0.0).by_camera, discs, atol=1e-9)
 
 
 def test_camera_sees_the_same_bearings_as_geometry_and_nothing_outside_its_field(standing):
@@ -54,7 +54,7 @@ def test_camera_sees_the_same_bearings_as_geometry_and_nothing_outside_its_field
         for target, disc in enumerate(discs):
             true = bearing(disc)
             for offset in (-14.0, -5.0, 0.0, 9.0, 14.0):
-                seen = eyes(true + offset)
+                seen = eyes(true + offset).by_camera
                 # A pixel in the middle of the picture is 0.18 degrees wide.
                 assert bearing(seen[target]) == pytest.approx(true, abs=0.2)
                 hidden = [k for k in range(3) if abs(bearing(discs[k]) - true - offset) > 60.0]
