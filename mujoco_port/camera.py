@@ -1,9 +1,9 @@
 """Eyes made of a camera: a picture is rendered in which every pixel names the object it shows.
 
 The camera stands in J1, or at the end of S1 (reading `camera_origin`), as high as the objects' middle, and
-looks along S1. It sees more than the 30 degrees of the agent's field of view, so that an object at its rim is
-seen as a whole, and its middle where it is, and so that the hand need not come down on what lies below it. For
-that the robot always looks from J1: a bent S2 is beside a camera at its beginning, and out of its field.
+looks along S1. It sees more than the 30 degrees of the agent's field of view, so that an object at its rim
+is seen as a whole, and its middle where it is, and so that the hand need not come down on what lies below
+it. For that the robot always looks from J1: a bent S2 lies outside the field of a camera at its beginning.
 
 Import only after `mujoco_port.gl.choose_back_end`.
 """
