@@ -22,9 +22,15 @@ from arm2d.readings import choices
 from arm2d.reference import run_trial
 
 # Every alternative of the ledger that changes a trial, one at a time.
+OF_EVOLUTION_ONLY = {"parent_scaling", "ties", "starts_shared"}
 ALTERNATIVES = [
     {},
-    *({name: word} for name, words in choices().items() for word in words[1:]),
+    *(
+        {name: word}
+        for name, words in choices().items()
+        for word in words[1:]
+        if name not in OF_EVOLUTION_ONLY
+    ),
     *({"object_radius": radius} for radius in (3.0, 8.0, 10.0, 11.8)),
     *({"sector_half_width": width} for width in (5.0, 8.0)),
     {"sector_centres": (45.0, 90.0, 135.0), "sector_half_width": 3.0},

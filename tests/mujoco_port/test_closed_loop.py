@@ -91,11 +91,10 @@ def test_what_the_camera_at_the_end_of_s1_does_not_see_is_in_no_sector(standing)
 
 
 def test_agent_in_the_robot_senses_what_its_camera_at_the_end_of_s1_sees(lab, champion_records):
-    """With S1 8 degrees beside an object, an agent with a camera in J1 sees it, and one with a camera at J2 does not."""
-    disc = champion_records[0].discs[0][2]
-    trial = Trials(
-        np.array([1]), np.array([2]), np.array([bearing(disc) - 8.0]), champion_records[0].discs[:1]
-    )
+    """With S1 8 degrees beside an object, a camera in J1 sees it, and one at the end of S1 does not."""
+    discs = champion_records[0].discs[0]
+    start = np.array([bearing(discs[2]) - 8.0])
+    trial = Trials(np.array([1]), np.array([2]), start, discs[np.newaxis])
     genotype = turns_when_it_sees_red()
     with CameraEyes(lab.body, Readings(camera_origin="end")) as eyes:
         for origin, sights, turns in (("J1", [None], True), ("end", [None, eyes], False)):
