@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from controllers import one_trial, steady_controller
 from hypothesis import given
 from hypothesis import strategies as st
 
 from arm2d import ActionWord, LabelChanges, ObjectWord, Readings, record_trial
 from arm2d.view import camera_offsets, in_view
+from tests.arm2d.controllers import one_trial, steady_controller
 
 MOVE, TOUCH, INDICATE, IGNORE = ActionWord
 BLUE, GREEN, RED = ObjectWord

@@ -4,17 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from evolution.folder import RunFolder
-from evolution.lineage import trace_lineage
-from evolution.population import first_population, next_population
-from evolution.recorded import recorded_history
-from evolution.replay import population_at
-from evolution.run import Watcher, evolve
-from evolution.scoring import score_population
-from small_runs import SMALL, contents
 
 from arm2d import Readings
+from evolution.agents.lineage import trace_lineage
 from evolution.cli import main
+from evolution.runs.folder import RunFolder
+from evolution.runs.recorded import recorded_history
+from evolution.runs.replay import population_at
+from evolution.runs.run import Watcher, evolve
+from evolution.search.population import first_population, next_population
+from evolution.search.scoring import score_population
+from tests.evolution.small_runs import SMALL, contents
 
 CROSSED = replace(SMALL, readings=Readings(crossover=0.6))
 
