@@ -22,8 +22,9 @@ from arm2d.view import camera_position
 
 Shape = TypeVar("Shape", Circle, Wedge)
 
-# Colour-blind safe; they mean the objects everywhere in the project.
-OBJECT_COLOURS: Final = {ObjectWord.BLUE: "#0072B2", ObjectWord.GREEN: "#009E73", ObjectWord.RED: "#D55E00"}
+# Everybody calls them blue, green and red; with any colour blindness they stay apart, by lightness where not
+# by hue (a test simulates it). They mean the objects everywhere; `models/scene.xml` repeats them.
+OBJECT_COLOURS: Final = {ObjectWord.BLUE: "#1242B2", ObjectWord.GREEN: "#21A366", ObjectWord.RED: "#CC0007"}
 ARM: Final = "#3A3F45"
 JOINT: Final = "#F5F3EE"
 FLOOR: Final = "#FBFAF7"

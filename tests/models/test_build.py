@@ -11,7 +11,9 @@ from mujoco_port.film.gl import choose_back_end
 choose_back_end()
 
 import mujoco  # noqa: E402
+from matplotlib.colors import to_rgb  # noqa: E402
 
+from arm2d.drawing import OBJECT_COLOURS  # noqa: E402
 from models.build import ROBOT_PREFIX, build_model  # noqa: E402
 
 ROBOT = get_robot("icub")
@@ -34,6 +36,12 @@ def test_hessian_is_dense(model):
 def test_objects_stand_upright_on_the_table(model):
     for name in ("blue", "green", "red"):
         assert model.body(name).pos[2] == pytest.approx(model.geom(name).size[1])
+
+
+def test_objects_have_the_colours_they_have_in_every_figure(model):
+    for word, colour in OBJECT_COLOURS.items():
+        material = model.material(word.name.lower())
+        assert material.rgba[:3] == pytest.approx(to_rgb(colour), abs=1e-3)
 
 
 def test_every_link_of_the_robot_has_a_sound_inertia(model):

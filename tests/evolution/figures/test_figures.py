@@ -7,6 +7,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from arm2d import Condition, Readings
+from arm2d.drawing import OBJECT_COLOURS
 from evolution.figures.run import (
     draw_fitness_curve,
     draw_heat_map,
@@ -54,7 +55,7 @@ def test_object_words_are_written_in_the_colours_of_the_objects(evaluation):
     axes = Figure().add_subplot()
     draw_heat_map(axes, evaluation)
     colours = [to_hex(each.label2.get_color()).upper() for each in axes.xaxis.get_major_ticks()]
-    assert colours == ["#0072B2", "#009E73", "#D55E00"]
+    assert colours == list(OBJECT_COLOURS.values())
 
 
 def test_the_largest_fitness_is_18_sevenths():
