@@ -63,6 +63,7 @@ class Appearance:
         swaps: Meshes shown instead of the URDF's.
         ornaments: Shapes to add.
         detail: How many triangles are kept, as a multiple of what does for meshes of smooth covers.
+        bare: Links without any mesh.
     """
 
     materials: Mapping[str, str] = field(default_factory=dict)
@@ -70,6 +71,7 @@ class Appearance:
     swaps: tuple[MeshSwap, ...] = ()
     ornaments: tuple[Ornament, ...] = ()
     detail: float = 1.0
+    bare: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Freeze the mapping."""
@@ -81,13 +83,13 @@ EYE_RADIUS = 0.024  # [m]
 EYE_DISCS = (("iris", 0.0108, 0.0242), ("pupil", 0.0064, 0.0245))
 
 
-def eye(
+def eyeball(
     link: str, centre: tuple[float, float, float], gaze: tuple[float, float, float]
 ) -> tuple[Ornament, ...]:
     """Make an eyeball with iris and pupil, flat discs in front of it like a cornea.
 
     Args:
-        link: The head.
+        link: The head, or a body that turns in it.
         centre: [3] in [m], centre of the eyeball.
         gaze: [3], unit vector the eye looks along.
     """
@@ -119,7 +121,6 @@ ICUB_COVERS = (
     "chest",
     *(f"{side}_{link}" for side in "lr" for link in ("upper_arm", "elbow_1", "forearm")),
 )
-GAZE = (0.0, -0.17, 0.985)  # y is up and z ahead in the iCub's head: 10 degrees down, to the table
 # Where the robot has lines of red lamps; the points lie on the surface of the head's mesh [m].
 BROW = ((0.020, 0.1425, 0.0787), (0.033, 0.1430, 0.0742), (0.046, 0.1375, 0.0687))
 MOUTH = (
@@ -152,8 +153,6 @@ ICUB_APPEARANCE = Appearance(
     ),
     ornaments=(
         *COLUMN,
-        *eye("head", (0.034, 0.1043, 0.0505), GAZE),
-        *eye("head", (-0.034, 0.1043, 0.0505), GAZE),
         *line("head", MOUTH, LAMP_RADIUS, "lamp"),
         *line("head", BROW, LAMP_RADIUS, "lamp"),
         *line("head", tuple((-x, y, z) for x, y, z in BROW), LAMP_RADIUS, "lamp"),
@@ -189,11 +188,9 @@ ICUB_ERD_APPEARANCE = Appearance(
     otherwise="metal",
     swaps=ERD_HANDS,
     detail=8.0,  # screws and all, in many small parts
-    # In this head x is back, y down and z to the right; the mesh has eyeballs, but one material for all.
+    # This head's mesh has eyeballs, but one material for all: ours lie on them.
     ornaments=(
         *COLUMN,
         *ERD_FINGERS,
-        *eye("head", (-0.0435, -0.107, 0.034), (-0.985, 0.17, 0.0)),
-        *eye("head", (-0.0435, -0.107, -0.034), (-0.985, 0.17, 0.0)),
     ),
 )

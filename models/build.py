@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from models.appearance import MeshSwap, Ornament
+from models.appearance import MeshSwap, Ornament, eyeball
 from models.inertias import fault, moments
 from models.meshes import read_mesh, standing, thin
 from models.robots import Robot
@@ -35,23 +35,27 @@ SHAPES = {
 }
 
 
-def build_spec(robot: Robot) -> mujoco.MjSpec:
+def build_spec(robot: Robot, finer: float = 1.0) -> mujoco.MjSpec:
     """Put a robot at the table of `scene.xml`.
 
     Joints that do not act are fixed at their angle in `robot.fixed`; the hand's reference point becomes
     the site "robot/hand". The robot's meshes are only looked at: they take part in no contact.
 
+    Args:
+        robot: Its record.
+        finer: How many times the triangles that do for a small picture are kept.
+
     Raises:
         RobotNotInstalledError: If the robot's package is missing.
     """
     scene = mujoco.MjSpec.from_string(files("models").joinpath("scene.xml").read_text())
-    body = robot_spec(robot)
+    body = robot_spec(robot, finer)
     yaw = robot.base_yaw / 2
     frame = scene.worldbody.add_frame(
         pos=list(robot.base_position), quat=[np.cos(yaw), 0.0, 0.0, np.sin(yaw)]
     )
     scene.attach(body, frame=frame, prefix=ROBOT_PREFIX)
-    dress(scene, robot)
+    dress(scene, robot, finer)
     prune_frames(scene)
     return scene
 
@@ -61,7 +65,7 @@ def build_model(robot: Robot) -> mujoco.MjModel:
     return build_spec(robot).compile()
 
 
-def robot_spec(robot: Robot) -> mujoco.MjSpec:
+def robot_spec(robot: Robot, finer: float) -> mujoco.MjSpec:
     """Read a robot's URDF: acting joints only, and the hand's reference point as a site."""
     spec = read_spec(robot)
     mend_inertias(spec)
@@ -69,8 +73,8 @@ def robot_spec(robot: Robot) -> mujoco.MjSpec:
     spec.body(robot.hand_frame).add_site(name="hand", pos=list(robot.hand_offset), size=[0.005] * 3, group=5)
     for link in robot.left_out:
         spec.delete(spec.body(link))
-    thin_meshes(spec, robot.appearance.detail)
-    acting = set(robot.joints)
+    thin_meshes(spec, finer * robot.appearance.detail)
+    acting = {*robot.joints, *robot.loose}
     for joint in list(spec.joints):
         if joint.name not in acting:
             fix_joint(spec, joint, robot.fixed.get(joint.name, 0.0))
@@ -140,10 +144,10 @@ def is_bare(body: mujoco.MjsBody) -> bool:
     return body.name.startswith(ROBOT_PREFIX) and not any(holds)
 
 
-def dress(scene: mujoco.MjSpec, robot: Robot) -> None:
+def dress(scene: mujoco.MjSpec, robot: Robot, finer: float) -> None:
     """Give the robot's links their materials, better meshes and ornaments; none of them touches anything."""
     appearance = robot.appearance
-    left_out = {swap.replaces for swap in appearance.swaps}
+    left_out = {*(swap.replaces for swap in appearance.swaps), *appearance.bare}
     for body in scene.bodies:
         link = body.name.removeprefix(ROBOT_PREFIX)
         if link == body.name:
@@ -155,9 +159,15 @@ def dress(scene: mujoco.MjSpec, robot: Robot) -> None:
                 show(geom, appearance.materials.get(link, appearance.otherwise))
     share = share_folder(find_urdf(robot))
     for swap in appearance.swaps:
-        add_mesh_geom(scene, swap, share)
-    for ornament in appearance.ornaments:
+        add_mesh_geom(scene, swap, share, finer)
+    for ornament in (*appearance.ornaments, *still_eyes(robot)):
         add_ornament(scene, ornament)
+
+
+def still_eyes(robot: Robot) -> tuple[Ornament, ...]:
+    """Give a robot's eyes as they are where they do not turn."""
+    eyes = () if robot.presence is None else robot.presence.eyes
+    return tuple(part for each in eyes for part in eyeball(each.link, each.centre, each.still))
 
 
 def show(geom: mujoco.MjsGeom, material: str) -> None:
@@ -169,10 +179,10 @@ def show(geom: mujoco.MjsGeom, material: str) -> None:
     geom.mass = 0.0
 
 
-def add_mesh_geom(scene: mujoco.MjSpec, swap: MeshSwap, share: Path) -> None:
+def add_mesh_geom(scene: mujoco.MjSpec, swap: MeshSwap, share: Path, finer: float) -> None:
     """Show a mesh file at a link."""
     name = f"{swap.link}_shown"
-    vertices, faces = thin(*read_mesh(share / swap.file), MAX_FACES_SWAPPED)
+    vertices, faces = thin(*read_mesh(share / swap.file), int(finer * MAX_FACES_SWAPPED))
     scene.add_mesh(
         name=name, uservert=(vertices * swap.scale).ravel(), userface=faces.ravel(), inertia=SHELL_INERTIA
     )

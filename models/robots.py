@@ -16,6 +16,7 @@ from types import MappingProxyType
 
 from models.appearance import ICUB_APPEARANCE, ICUB_ERD_APPEARANCE, Appearance
 from models.limits import ICUB_LIMITS, MotorLimits
+from models.presence import ICUB_ERD_PRESENCE, ICUB_PRESENCE, Presence
 from models.shapes import ICUB_SHAPES, ContactShape
 
 
@@ -111,6 +112,8 @@ class Robot:
         left_out: Links that are not built in MuJoCo, with all that hangs on them.
         fixed: [rad], the angle at which a joint that does not act is held; 0 if not named.
         appearance: Colours and ornaments.
+        presence: What only a film moves: neck, eyes, fingers and an arm that rests.
+        loose: Further joints that are not held at their angle in `fixed`, but belong to nobody.
         limits: What the motors can do; None if nothing is known of it, then there is no physics.
         shapes: What meets the objects.
     """
@@ -129,6 +132,8 @@ class Robot:
     left_out: tuple[str, ...] = ()
     fixed: Mapping[str, float] = field(default_factory=dict)
     appearance: Appearance = field(default_factory=Appearance)
+    presence: Presence | None = None
+    loose: tuple[str, ...] = ()
     limits: MotorLimits | None = None
     shapes: tuple[ContactShape, ...] = ()
 
@@ -201,6 +206,7 @@ ICUB = Robot(
         "l_elbow": 0.9,
     },
     appearance=ICUB_APPEARANCE,
+    presence=ICUB_PRESENCE,
     limits=ICUB_LIMITS,
     shapes=ICUB_SHAPES,
 )
@@ -216,6 +222,7 @@ ICUB_ERD = replace(
     urdf="icub_description/robots/icub.urdf",
     plane=replace(ICUB.plane, hand_height=0.038, lift=0.052),  # its block of a hand reaches further down
     appearance=ICUB_ERD_APPEARANCE,
+    presence=ICUB_ERD_PRESENCE,
     limits=None,
     shapes=(),
 )
