@@ -68,7 +68,7 @@ def run_trial(
     beta = c.BETA_MAX
     heard, later, delay = changes or (instruction, instruction, 0)
     countdown, run, best, stretch = None, 0.0, 0.0, 0.0
-    goal = _goal(instruction.action, r)
+    full = goal(instruction.action, r)
     first_offset = offset = offset_of(alpha, placed[target])
     for step in range(1, c.MAX_STEPS + 1):  # noqa: B007 - the last step's number is part of the score
         turn1, turn2 = think(sense(alpha, beta, placed, sides, heard, r))
@@ -85,14 +85,14 @@ def run_trial(
             countdown -= 1
             heard = later if countdown == 0 else heard
         collided = any(side for disc, side in enumerate(sides) if disc != target)
-        if _is_good(instruction.action, offset, in_view, sides[target], turned, r):
+        if is_good(instruction.action, offset, in_view, sides[target], turned, r):
             run += turned if instruction.action is ActionWord.MOVE else 1.0
         elif r.run_counting == "uninterrupted":
             run = 0.0
         best = max(best, abs(run))
-        if best >= goal - c.THRESHOLD_TOLERANCE or collided:
+        if best >= full - c.THRESHOLD_TOLERANCE or collided:
             break
-    return _score(instruction.action, first_offset, offset, in_view, collided, best, beta, stretch, step, r)
+    return score(instruction.action, first_offset, offset, in_view, collided, best, beta, stretch, step, r)
 
 
 def controller(genotype: ArrayLike, readings: Readings) -> Callable[[Sequence[float]], tuple[float, float]]:
@@ -218,9 +218,7 @@ def touch(
     return discs, sides
 
 
-def _is_good(
-    action: ActionWord, offset: float, in_view: bool, side: Side, turned: float, r: Readings
-) -> bool:
+def is_good(action: ActionWord, offset: float, in_view: bool, side: Side, turned: float, r: Readings) -> bool:
     """Whether the step counts for F2 (spec section 8)."""
     if action is ActionWord.INDICATE:
         return offset < r.indicate_cone and not side
@@ -231,14 +229,14 @@ def _is_good(
     return not in_view and not side
 
 
-def _goal(action: ActionWord, r: Readings) -> float:
+def goal(action: ActionWord, r: Readings) -> float:
     """The run of good steps, or of turns [deg], that ends the trial."""
     if action is ActionWord.IGNORE and r.ignore_stops == "never":
         return float("inf")
     return r.move_angle if action is ActionWord.MOVE else float(c.GOOD_STEPS_FOR_SUCCESS)
 
 
-def _score(
+def score(
     action: ActionWord,
     first_offset: float,
     offset: float,
