@@ -43,6 +43,7 @@ class ClosedLoop:
     ) -> None:
         self._think = controller(genotype, readings)
         self._heard, self._readings, self._body = instruction, readings, body
+        self.sensed: list[list[float]] = []  # I1 to I18 of every control step so far
         self._here: Angles = (alpha, c.BETA_MAX)  # where S2 is to be at this moment
         self._next: Angles = self._here
 
@@ -57,6 +58,7 @@ class ClosedLoop:
         sides = felt(so_far.contact[-SKIN_MEMORY:])
         places = [(x, y) for x, y in seen.tolist()]
         inputs = sense(alpha, beta, places, sides, self._heard, self._readings)
+        self.sensed.append(inputs)
         turn1, turn2 = self._think(inputs)
         self._here, (alpha, beta) = self._next, self._next
         self._next = (

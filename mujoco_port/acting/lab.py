@@ -6,6 +6,8 @@ record, verdict = Lab(get_robot("icub")).open_loop(genotype, trial, readings)
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -72,7 +74,8 @@ class Lab:
         """
         instruction, alpha = instruction_of(trial), float(trial.alpha[0])
         pilot = ClosedLoop(genotype, instruction, alpha, readings, self.body)
-        return self.carry_out(pilot, instruction, trial.discs[0], readings, eyes)
+        record, verdict = self.carry_out(pilot, instruction, trial.discs[0], readings, eyes)
+        return replace(record, inputs=np.array(pilot.sensed)), verdict
 
     def carry_out(
         self,

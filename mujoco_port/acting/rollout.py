@@ -86,6 +86,7 @@ class PhysicalRecord:
         places: [N, 3, 7], of the objects: centre in [m] and quaternion.
         contact: [N, 3], bits of `mujoco_port.acting.contacts`.
         depth: [N] in [m], how deep the deepest contact of the robot is pressed in.
+        inputs: [K, 18], what an agent in closed loop sensed; None where none did.
     """
 
     instruction: Instruction
@@ -101,6 +102,7 @@ class PhysicalRecord:
     places: NDArray[np.float64]
     contact: NDArray[np.uint8]
     depth: NDArray[np.float64]
+    inputs: NDArray[np.float64] | None = None
 
     @property
     def steps(self) -> int:

@@ -59,9 +59,7 @@ def judge(record: PhysicalRecord, readings: Readings) -> Verdict:
     others = np.delete(record.contact, target, axis=1).any(axis=1)
     n = len(record.alpha)
     fault = int(np.argmax(others)) if others.any() else n
-    good = _is_good(record, readings)
-    progress = arcs(good, bearings(record)[:, target]) if action is ActionWord.MOVE else lengths(good)
-    goal = readings.move_angle if action is ActionWord.MOVE else GOOD_TIME_S
+    progress, goal = progress_of(record, readings)
     reached = progress >= goal - 1e-9
     when = int(np.argmax(reached)) if reached.any() else n
     best = float(progress[: fault + 1].max(initial=0.0))
@@ -71,6 +69,14 @@ def judge(record: PhysicalRecord, readings: Readings) -> Verdict:
         return Verdict(False, "another object was touched", best, fault, True)
     unit = "degrees" if action is ActionWord.MOVE else "s"
     return Verdict(False, f"{best:.1f} of {goal:g} {unit}", best, n, False)
+
+
+def progress_of(record: PhysicalRecord, readings: Readings) -> tuple[NDArray[np.float64], float]:
+    """How far the robot has come without a break, [N], and how far it has to: in [s], or [deg] for MOVE."""
+    good, target = _is_good(record, readings), int(record.instruction.object)
+    if record.instruction.action is ActionWord.MOVE:
+        return arcs(good, bearings(record)[:, target]), readings.move_angle
+    return lengths(good), GOOD_TIME_S
 
 
 def bearings(record: PhysicalRecord) -> NDArray[np.float64]:
