@@ -22,17 +22,18 @@ from mujoco_port.film.gl import choose_back_end
 
 EVOLVED = Path(__file__).parents[1] / "tests" / "evolved.npz"
 N_FRAMES = 60
+NEAR = np.array([0.0, 0.27]), 0.2  # [m], what the camera from above looks at, and how much of it
 
 
-def longest_trial() -> TrialRecord:
-    """Of an evolved agent's trials the longest that moves an object, so that much is drawn."""
+def longest_trial() -> tuple[TrialRecord, np.ndarray]:
+    """Of an evolved agent's trials the longest that moves an object, so that much is drawn; and the agent."""
     with np.load(EVOLVED, allow_pickle=False) as stored:
         genotype = stored["genotypes"][15]
     asked = [each for each in Condition.WITH_INDICATE.instructions if each.action is not ActionWord.INDICATE]
     trials = draw_trials(asked, 3, Readings(), np.random.default_rng(2))
     records = [record_trial(genotype, trials[t]) for t in range(len(trials))]
     assert {each.instruction.object for each in records} == set(ObjectWord)
-    return max(records, key=lambda each: each.steps)
+    return max(records, key=lambda each: each.steps), genotype
 
 
 def measure(call: Callable[[int], object], n: int = N_FRAMES) -> tuple[float, float]:
@@ -55,15 +56,25 @@ def main() -> None:
     """Print a table."""
     choose_back_end()
     from arm2d.video import write_mp4
+    from mujoco_port.film.gaze import Bearing
     from mujoco_port.film.kinematic import FRAMES_PER_STEP
+    from mujoco_port.film.quality import QUALITIES
     from mujoco_port.film.stage import Stage
     from mujoco_port.film.take import kinematic_take
-    from mujoco_port.film.video import HEIGHT_PX, PER_SECOND, ROBOT_WIDTH_PX, Side, frames, write_take
+    from mujoco_port.film.video import (
+        HEIGHT_PX,
+        INSET_PX,
+        PER_SECOND,
+        ROBOT_WIDTH_PX,
+        frames,
+        panel_of,
+        write_take,
+    )
 
     robot = get_robot(sys.argv[1] if len(sys.argv) > 1 else "icub")
-    record = longest_trial()
-    take = kinematic_take(record, robot, FRAMES_PER_STEP)
-    side, n = Side(take, robot), len(take.steps)
+    record, genotype = longest_trial()
+    take = kinematic_take(record, robot, FRAMES_PER_STEP, genotype)
+    panel, n = panel_of(take, robot), len(take.steps)
     table = Table(title=f"a frame of {robot.title}, {os.environ['MUJOCO_GL']}, milliseconds")
     for column in ("stage", "processor", "clock"):
         table.add_column(column, justify="left" if column == "stage" else "right")
@@ -73,18 +84,26 @@ def main() -> None:
 
     def show(stage: Stage, k: int) -> None:
         k = k * n // N_FRAMES
-        stage.pose(take.angles[k], take.objects[k])
+        stage.pose(take.angles[k], take.objects[k], bearing, k)
         stage.highlight(take.touched[k])
+        stage.shine(*take.planar[k])
 
-    for width in (ROBOT_WIDTH_PX, 1280):
-        with Stage(robot, width, HEIGHT_PX) as stage:
-            row(f"pose, {width} x {HEIGHT_PX}", measure(lambda k, stage=stage: show(stage, k)))
-            row("  and draw, with shadows", measure(lambda k, s=stage: (show(s, k), s.picture())))
+    def turn(stage: Stage) -> Bearing:
+        return stage.bearing(take.angles, take.planar[:, 0], take.pointing, take.moment_s)
+
+    for name, quality in QUALITIES.items():
+        calls = N_FRAMES if quality.oversampling == 1 else N_FRAMES // 10
+        with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX, quality) as stage:
+            bearing = turn(stage)
+            row(f"robot, {name}", measure(lambda k, s=stage: (show(s, k), s.picture()), calls))
             row(
-                "  the same without the backdrop",
-                measure(lambda k, s=stage: (show(s, k), s.picture_at_once())),
+                "  a contact from above",
+                measure(lambda k, s=stage: (show(s, k), s.close_up(*NEAR, INSET_PX)), calls),
             )
-    row("2D world and captions", measure(lambda k: side.frame(take.steps[k * n // N_FRAMES])))
+    with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX) as stage:
+        cpu, clock = measure(lambda _: turn(stage), 1)
+        row("neck, eyes and fingers", (cpu / n, clock / n))
+    row("the agent's mind", measure(lambda k: panel.frame(take.steps[k]), n - 1))
     pictures = [picture for _, picture in zip(range(N_FRAMES), frames(take, robot), strict=False)]
     with tempfile.TemporaryDirectory() as folder:
         path, before, clock = Path(folder) / "trial.mp4", os.times(), time.perf_counter()

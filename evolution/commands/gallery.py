@@ -22,6 +22,9 @@ class Gallery(AgentCommand):
     robot: str = "icub"
     """Which humanoid; an unknown name lists those there are."""
 
+    quality: Literal["draft", "normal", "high"] = "normal"
+    """How finely it is drawn: high has all triangles, smooth edges, soft shadows, and takes some 15 times."""
+
     output: Path | None = None
     """The video; its last picture lies beside it. By default `videos/<agent>-gallery.mp4`, as for `port`."""
 
@@ -56,7 +59,7 @@ class Gallery(AgentCommand):
         carried_out = sum(record.success for record in records)
         title = f"{source.name}: nine instructions, two of them never met; {carried_out} carried out"
         if not physics:
-            paths = port_gallery(records, title, output, robot=self.robot)
+            paths = port_gallery(records, title, output, robot=self.robot, quality=self.quality)
         else:
             paths, verdicts = port_physical_gallery(
                 records,
@@ -65,6 +68,7 @@ class Gallery(AgentCommand):
                 output,
                 robot=self.robot,
                 closed_loop=self.closed_loop,
+                quality=self.quality,
             )
             for record, verdict in zip(records, verdicts, strict=True):
                 planar = "carried out" if record.success else "not carried out"

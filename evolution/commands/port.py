@@ -28,6 +28,9 @@ class Port(AgentCommand):
     robot: str = "icub"
     """Which humanoid; an unknown name lists those there are."""
 
+    quality: Literal["draft", "normal", "high"] = "normal"
+    """How finely it is drawn: high has all triangles, smooth edges, soft shadows, and takes some 15 times."""
+
     output: Path | None = None
     """The video. By default `videos/<agent>-<instruction>.mp4` in the run folder, or in the current one."""
 
@@ -66,12 +69,17 @@ class Port(AgentCommand):
         if physics:
             shown = output if self.video else None
             verdict = port_physical_trial(
-                record, source.genotype, shown, robot=self.robot, closed_loop=self.closed_loop
+                record,
+                source.genotype,
+                shown,
+                robot=self.robot,
+                closed_loop=self.closed_loop,
+                quality=self.quality,
             )
             print(f"2D: {'carried out' if record.success else 'not carried out'}")
             print(f"3D: {'carried out' if verdict.success else 'not carried out: ' + verdict.reason}")
         else:
-            port_trial(record, output, robot=self.robot)
+            port_trial(record, output, robot=self.robot, genotype=source.genotype, quality=self.quality)
         if self.video:
             print(output)
         return 0

@@ -1,8 +1,9 @@
-"""All instructions of an agent in one video, three by three: the robot and its planar world in each cell."""
+"""All instructions of an agent in one video, three by three: the robot and the planar world on its table."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Final
@@ -14,35 +15,38 @@ from rich.progress import track
 from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.constants import DT
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
-from arm2d.video import Panel, write_mp4
+from arm2d.video import write_mp4
 from models.robots import Robot
-from mujoco_port.film.caption import BADGE, FAINT, blank, mark, pixels
-from mujoco_port.film.overlay import halved
+from mujoco_port.film.panel import BADGE, FAINT, blank, mark, pixels
+from mujoco_port.film.quality import QUALITIES, Quality
 from mujoco_port.film.stage import Stage
 from mujoco_port.film.take import Take
-from mujoco_port.film.video import PER_SECOND, robot_pictures
+from mujoco_port.film.video import PER_SECOND, moment_of, robot_pictures
 
-# Pixels: 1920 x 1080 in all. A cell is a strip of words over robot and planar world.
+# Pixels: 1920 x 1080 in all. A cell is a strip of words over the robot.
 COLUMNS: Final = 3
 WIDTH, HEIGHT, HEADER, GAP = 1920, 1080, 66, 6
 CELL_WIDTH: Final = (WIDTH - 4 * GAP) // COLUMNS
 CELL_HEIGHT: Final = (HEIGHT - HEADER - 3 * GAP) // COLUMNS
 STRIP, CLOCK = 38, 150
 VIEW_HEIGHT: Final = CELL_HEIGHT - STRIP
-ROBOT_WIDTH: Final = 404
-PANEL_WIDTH: Final = CELL_WIDTH - ROBOT_WIDTH
+INSET: Final = 150
 BORDER: Final = 3  # around a cell of an instruction that was never met
 HOLD_S: Final = 2.0
+NORMAL: Final = QUALITIES["normal"]
 
 
-def write_gallery(takes: Sequence[Take], robot: Robot, title: str, path: Path) -> Path:
-    """Write trials side by side as an MP4, and its last picture beside it as a PNG.
+def write_gallery(
+    takes: Sequence[Take], robot: Robot, title: str, path: Path, quality: Quality = NORMAL
+) -> Path:
+    """Write trials side by side as an MP4, and their ends beside it as a PNG of high quality.
 
     Args:
         takes: Nine trials, row by row.
         robot: Who carries them out.
         title: Whose trials these are.
         path: The video; both files appear when they are complete.
+        quality: Of the video.
 
     Returns:
         The path of the PNG.
@@ -53,55 +57,75 @@ def write_gallery(takes: Sequence[Take], robot: Robot, title: str, path: Path) -
     import imageio.v3 as imageio
 
     total = max(len(take.steps) for take in takes) + round(HOLD_S * PER_SECOND)
-    shown = track(frames(takes, robot, title), f"{len(takes)} instructions on {robot.name}", total=total)
-    poster, last = path.with_suffix(".png"), []
-    write_mp4(remember_last(shown, last), path, PER_SECOND)
-    imageio.imwrite(poster, last[0])
+    shown = track(
+        frames(takes, robot, title, quality), f"{len(takes)} instructions on {robot.name}", total=total
+    )
+    write_mp4(shown, path, PER_SECOND)
+    poster = path.with_suffix(".png")
+    imageio.imwrite(poster, last_moments(takes, robot, title))
     return poster
 
 
-def remember_last(
-    pictures: Iterable[NDArray[np.uint8]], last: list[NDArray[np.uint8]]
+def frames(
+    takes: Sequence[Take], robot: Robot, title: str, quality: Quality = NORMAL
 ) -> Iterator[NDArray[np.uint8]]:
-    """The pictures, one after the other; `last` holds the one that came last."""
-    for picture in pictures:
-        last[:] = [picture]
-        yield picture
-
-
-def frames(takes: Sequence[Take], robot: Robot, title: str) -> Iterator[NDArray[np.uint8]]:
     """All moments, [1080, 1920, 3] each, until the longest trial has ended and `HOLD_S` longer."""
-    picture = np.empty((HEIGHT, WIDTH, 3), np.uint8)
-    picture[:] = _rgb(FLOOR)
-    picture[:HEADER] = header(robot, title)
-    with Stage(robot, 2 * ROBOT_WIDTH, 2 * VIEW_HEIGHT) as stage:
+    picture = _empty(robot, title)
+    # So small a picture needs smooth edges.
+    with Stage(robot, CELL_WIDTH, VIEW_HEIGHT, replace(quality, oversampling=2)) as stage:
         cells = [cell_pictures(take, stage) for take in takes]
         for _ in range(max(len(take.steps) for take in takes)):
             for k, cell in enumerate(cells):
                 if (drawn := next(cell, None)) is not None:
-                    top = HEADER + (k // COLUMNS) * (CELL_HEIGHT + GAP)
-                    left = GAP + (k % COLUMNS) * (CELL_WIDTH + GAP)
-                    picture[top : top + CELL_HEIGHT, left : left + CELL_WIDTH] = drawn
+                    picture[_place(k)] = drawn
             yield picture.copy()
     for _ in range(round(HOLD_S * PER_SECOND)):
         yield picture
 
 
+def last_moments(takes: Sequence[Take], robot: Robot, title: str) -> NDArray[np.uint8]:
+    """How all trials ended, [1080, 1920, 3], in high quality."""
+    picture = _empty(robot, title)
+    with Stage(robot, CELL_WIDTH, VIEW_HEIGHT, QUALITIES["high"]) as stage:
+        for k, take in enumerate(takes):
+            last = len(take.steps) - 1
+            picture[_place(k)] = cell(take, last, moment_of(take, stage, last, INSET))
+    return picture
+
+
 def cell_pictures(take: Take, stage: Stage) -> Iterator[NDArray[np.uint8]]:
     """One trial's cell at each of its moments; the last one shows the verdict."""
-    panel = Panel(take.record, PANEL_WIDTH, VIEW_HEIGHT, caption=False)
-    words = strip(take.record.instruction)
-    views = (halved(each) for each in robot_pictures(take, stage))
-    end = take.record.steps  # of the planar world, where a robot may need longer
-    for step, robot in zip(take.steps, views, strict=True):
-        verdicts = tuple(success for _, success in take.verdicts) if step >= take.steps[-1] else ()
-        line = np.concatenate([words, clock(f"{step * DT:.1f} s", verdicts)], axis=1)
-        cell = np.concatenate([line, np.concatenate([robot, panel.frame(min(step, end))], axis=1)])
-        if take.record.instruction in NON_EXPERIENCED:
-            _frame(cell)
-        yield cell
+    for moment, view in enumerate(robot_pictures(take, stage, INSET)):
+        yield cell(take, moment, view)
 
 
+def cell(take: Take, moment: int, view: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """A moment's view with the words, the clock and in the end the verdicts above it."""
+    step = take.steps[moment]
+    verdicts = tuple(success for _, success in take.verdicts) if step >= take.steps[-1] else ()
+    line = np.concatenate([strip(take.record.instruction), clock(f"{step * DT:.1f} s", verdicts)], axis=1)
+    picture = np.concatenate([line, view])
+    if take.record.instruction in NON_EXPERIENCED:
+        _frame(picture)
+    return picture
+
+
+def _empty(robot: Robot, title: str) -> NDArray[np.uint8]:
+    """The page, without its cells."""
+    picture = np.empty((HEIGHT, WIDTH, 3), np.uint8)
+    picture[:] = _rgb(FLOOR)
+    picture[:HEADER] = header(robot, title)
+    return picture
+
+
+def _place(k: int) -> tuple[slice, slice]:
+    """Where the cell of trial k lies on the page."""
+    top = HEADER + (k // COLUMNS) * (CELL_HEIGHT + GAP)
+    left = GAP + (k % COLUMNS) * (CELL_WIDTH + GAP)
+    return slice(top, top + CELL_HEIGHT), slice(left, left + CELL_WIDTH)
+
+
+@cache
 def strip(instruction: Instruction) -> NDArray[np.uint8]:
     """The words above a cell, but for the clock."""
     figure = blank(CELL_WIDTH - CLOCK, STRIP)

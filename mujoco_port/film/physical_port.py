@@ -17,6 +17,7 @@ from arm2d import TrialRecord, Trials
 from models.robots import get_robot
 from mujoco_port.film.gl import choose_back_end
 from mujoco_port.film.port import check_gallery, writable
+from mujoco_port.film.quality import QualityName, quality_named
 
 if TYPE_CHECKING:
     from mujoco_port.acting.lab import Lab
@@ -33,6 +34,7 @@ def port_physical_trial(
     *,
     robot: str = "icub",
     closed_loop: ClosedLoopName | None = None,
+    quality: QualityName = "normal",
 ) -> Verdict:
     """Let a robot with motors carry out a trial among free objects, judge it, and write it as an MP4.
 
@@ -43,6 +45,7 @@ def port_physical_trial(
         robot: Name of a record in `models.robots`.
         closed_loop: Where the agent's inputs come from: None, the 2D world; "geometric", the robot's skin and
             hand, and the objects' true places; "camera", a rendered picture in place of these.
+        quality: Of the video.
 
     Returns:
         What became of the instruction on the robot.
@@ -52,17 +55,17 @@ def port_physical_trial(
         UnknownRobotError, NoRenderingError, OutOfReachError, OSError: As `port_trial`.
     """
     path = None if output is None else writable(Path(output), ".mp4")
-    chosen = get_robot(robot)
+    chosen, fine = get_robot(robot), quality_named(quality)
     if path is not None or closed_loop == "camera":
         choose_back_end()
     from mujoco_port.acting.lab import Lab
 
     physical, verdict = _carry_out(Lab(chosen), record, genotype, closed_loop)
     if path is not None:
-        from mujoco_port.film.physical_take import physical_take
+        from mujoco_port.film.take import physical_take
         from mujoco_port.film.video import write_take
 
-        write_take(physical_take(record, physical, verdict), chosen, path)
+        write_take(physical_take(record, physical, verdict, genotype), chosen, path, fine)
     return verdict
 
 
@@ -74,6 +77,7 @@ def port_physical_gallery(
     *,
     robot: str = "icub",
     closed_loop: ClosedLoopName | None = None,
+    quality: QualityName = "normal",
 ) -> tuple[tuple[Path, Path], list[Verdict]]:
     """Let a robot with motors carry out nine trials, and write them side by side as `port_gallery` does.
 
@@ -84,6 +88,7 @@ def port_physical_gallery(
         output: The video; its folder has to be there, and the picture will lie beside it.
         robot: Name of a record in `models.robots`.
         closed_loop: As `port_physical_trial`.
+        quality: Of the video; the picture is of high quality.
 
     Returns:
         The paths of the video and of the picture, and what became of each instruction.
@@ -92,21 +97,21 @@ def port_physical_gallery(
         ValueError: If there are not nine records. All other errors as `port_physical_trial`.
     """
     check_gallery(records)
-    path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
+    path, chosen, fine = writable(Path(output), ".mp4"), get_robot(robot), quality_named(quality)
     choose_back_end()
     from rich.progress import track
 
     from mujoco_port.acting.lab import Lab
     from mujoco_port.film.gallery import write_gallery
-    from mujoco_port.film.physical_take import physical_take
+    from mujoco_port.film.take import physical_take
 
     lab, takes, verdicts = Lab(chosen), [], []
     for record in track(records, "trials on the robot"):
         physical, verdict = _carry_out(lab, record, genotype, closed_loop)
-        takes.append(physical_take(record, physical, verdict))
+        takes.append(physical_take(record, physical, verdict, genotype))
         verdicts.append(verdict)
     title += f", {sum(verdict.success for verdict in verdicts)} by the robot"
-    return (path, write_gallery(takes, chosen, title, path)), verdicts
+    return (path, write_gallery(takes, chosen, title, path, fine)), verdicts
 
 
 def _carry_out(

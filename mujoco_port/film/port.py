@@ -11,14 +11,24 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
+from numpy.typing import ArrayLike
+
 from arm2d import TrialRecord
 from models.robots import get_robot
 from mujoco_port.film.gl import choose_back_end
+from mujoco_port.film.quality import QualityName, quality_named
 
 N_GALLERY: Final = 9
 
 
-def port_trial(record: TrialRecord, output: Path | str, *, robot: str = "icub") -> Path:
+def port_trial(
+    record: TrialRecord,
+    output: Path | str,
+    *,
+    robot: str = "icub",
+    genotype: ArrayLike | None = None,
+    quality: QualityName = "normal",
+) -> Path:
     """Play a recorded trial kinematically on a robot and write it as an MP4.
 
     The hand follows the end of S2 by inverse kinematics, the objects follow the discs of the 2D world.
@@ -27,26 +37,36 @@ def port_trial(record: TrialRecord, output: Path | str, *, robot: str = "icub") 
         record: The trial.
         output: The video; its folder has to be there.
         robot: Name of a record in `models.robots`.
+        genotype: [84], of the agent: then its neurons are shown, else what they brought about.
+        quality: "draft", "normal" or "high".
 
     Returns:
         The path of the video.
 
     Raises:
+        ValueError: If there is no such quality.
         UnknownRobotError: If no robot has this name.
         NoRenderingError: If nothing on this machine can draw without a screen.
         OutOfReachError: If the robot cannot follow.
         OSError: If the file cannot be written.
     """
-    path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
+    path, chosen, fine = writable(Path(output), ".mp4"), get_robot(robot), quality_named(quality)
     choose_back_end()
-    from mujoco_port.film.video import write_video
+    from mujoco_port.film.kinematic import FRAMES_PER_STEP
+    from mujoco_port.film.take import kinematic_take
+    from mujoco_port.film.video import write_take
 
-    write_video(record, chosen, path)
+    write_take(kinematic_take(record, chosen, FRAMES_PER_STEP, genotype), chosen, path, fine)
     return path
 
 
 def port_gallery(
-    records: Sequence[TrialRecord], title: str, output: Path | str, *, robot: str = "icub"
+    records: Sequence[TrialRecord],
+    title: str,
+    output: Path | str,
+    *,
+    robot: str = "icub",
+    quality: QualityName = "normal",
 ) -> tuple[Path, Path]:
     """Play nine recorded trials side by side and write them as an MP4, and its last picture as a PNG.
 
@@ -55,6 +75,7 @@ def port_gallery(
         title: What stands above them.
         output: The video; its folder has to be there, and the picture will lie beside it.
         robot: Name of a record in `models.robots`.
+        quality: Of the video; the picture is of high quality.
 
     Returns:
         The paths of the video and of the picture.
@@ -63,14 +84,14 @@ def port_gallery(
         ValueError: If there are not nine records. All other errors as `port_trial`.
     """
     check_gallery(records)
-    path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
+    path, chosen, fine = writable(Path(output), ".mp4"), get_robot(robot), quality_named(quality)
     choose_back_end()
     from mujoco_port.film.gallery import write_gallery
     from mujoco_port.film.kinematic import FRAMES_PER_STEP
     from mujoco_port.film.take import kinematic_take
 
     takes = [kinematic_take(record, chosen, FRAMES_PER_STEP) for record in records]
-    return path, write_gallery(takes, chosen, title, path)
+    return path, write_gallery(takes, chosen, title, path, fine)
 
 
 def check_gallery(records: Sequence[TrialRecord]) -> None:
@@ -79,15 +100,23 @@ def check_gallery(records: Sequence[TrialRecord]) -> None:
         raise ValueError(f"a gallery has {N_GALLERY} trials, not {len(records)}; give one per instruction")
 
 
-def port_picture(record: TrialRecord, step: int, output: Path | str, *, robot: str = "icub") -> Path:
+def port_picture(
+    record: TrialRecord,
+    step: int,
+    output: Path | str,
+    *,
+    robot: str = "icub",
+    genotype: ArrayLike | None = None,
+    quality: QualityName = "high",
+) -> Path:
     """Write one moment of a trial on a robot as a PNG; arguments and errors as `port_trial`."""
-    path, chosen = writable(Path(output), ".png"), get_robot(robot)
+    path, chosen, fine = writable(Path(output), ".png"), get_robot(robot), quality_named(quality)
     choose_back_end()
     import imageio.v3 as imageio
 
     from mujoco_port.film.video import frame_at
 
-    imageio.imwrite(path, frame_at(record, chosen, step))
+    imageio.imwrite(path, frame_at(record, chosen, step, fine, genotype))
     return path
 
 

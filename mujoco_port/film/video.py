@@ -1,4 +1,4 @@
-"""Frames of a trial on the robot, the 2D world beside it, to one MP4."""
+"""Frames of a trial on the robot, the agent's mind beside it, to one MP4."""
 
 from __future__ import annotations
 
@@ -7,48 +7,39 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from rich.progress import track
 
 from arm2d import TrialRecord
 from arm2d.constants import DT
-from arm2d.video import Panel, write_mp4
+from arm2d.video import write_mp4
 from models.robots import Robot
-from mujoco_port.film.caption import footing, heading
+from mujoco_port.film.closeup import INSET_PX, close_ups, laid_in
 from mujoco_port.film.kinematic import FRAMES_PER_STEP
-from mujoco_port.film.overlay import halved
+from mujoco_port.film.panel import WIDTH as PANEL_WIDTH_PX
+from mujoco_port.film.panel import MindPanel
+from mujoco_port.film.quality import QUALITIES, Quality
 from mujoco_port.film.stage import Stage
 from mujoco_port.film.take import Take, kinematic_take
 
 HEIGHT_PX: Final = 720
 ROBOT_WIDTH_PX: Final = 800
-PANEL_WIDTH_PX: Final = 480
-PANEL_HEIGHT_PX: Final = 400
-CAPTION_HEIGHT_PX: Final = (HEIGHT_PX - PANEL_HEIGHT_PX) // 2
+WIDTH_PX: Final = ROBOT_WIDTH_PX + PANEL_WIDTH_PX
 VISIBLE: Final = 2e-4  # [rad] and [m]; a smaller change is a fifth of a pixel and is not drawn anew
 HOLD_S: Final = 1.0  # the last frame stays for so long
 PER_SECOND: Final = round(FRAMES_PER_STEP / DT)
+NORMAL: Final = QUALITIES["normal"]
 
 
-def write_video(record: TrialRecord, robot: Robot, path: Path) -> None:
-    """Write a trial on the robot as an MP4 in real time; the file appears when it is complete.
-
-    Raises:
-        OutOfReachError: If the robot cannot follow.
-        OSError: If the file cannot be written.
-    """
-    write_take(kinematic_take(record, robot, FRAMES_PER_STEP), robot, path)
-
-
-def write_take(take: Take, robot: Robot, path: Path) -> None:
+def write_take(take: Take, robot: Robot, path: Path, quality: Quality = NORMAL) -> None:
     """Write what happened on the robot as an MP4, `PER_SECOND` moments of the take in a second.
 
     Raises:
         OSError: If the file cannot be written.
     """
     total = len(take.steps) + round(HOLD_S * PER_SECOND)
-    shown = track(held(frames(take, robot)), f"{take.record.instruction} on {robot.name}", total=total)
-    write_mp4(shown, path, PER_SECOND)
+    shown = held(frames(take, robot, quality))
+    write_mp4(track(shown, f"{take.record.instruction} on {robot.name}", total=total), path, PER_SECOND)
 
 
 def held(pictures: Iterable[NDArray[np.uint8]]) -> Iterator[NDArray[np.uint8]]:
@@ -60,55 +51,69 @@ def held(pictures: Iterable[NDArray[np.uint8]]) -> Iterator[NDArray[np.uint8]]:
         yield picture
 
 
-class Side:
-    """What stands beside the robot: the instruction, the 2D world, and at the end the verdicts."""
-
-    def __init__(self, take: Take, robot: Robot) -> None:
-        instruction, seconds = take.record.instruction, take.record.steps * DT
-        size = PANEL_WIDTH_PX, CAPTION_HEIGHT_PX
-        self._end, self._planar_end = take.steps[-1], take.record.steps
-        self._above = heading(instruction, robot.title, *size)
-        self._running = footing((), seconds, *size)
-        self._ended = footing(take.verdicts, seconds, *size)
-        self._panel = Panel(take.record, PANEL_WIDTH_PX, PANEL_HEIGHT_PX, caption=False)
-
-    def frame(self, step: float) -> NDArray[np.uint8]:
-        """The picture after `step` steps, [720, 480, 3]."""
-        below = self._ended if step >= self._end else self._running
-        return np.concatenate([self._above, self._panel.frame(min(step, self._planar_end)), below])
+def panel_of(take: Take, robot: Robot) -> MindPanel:
+    """What stands beside the robot."""
+    return MindPanel(take.mind, take.record.instruction, robot.title, take.verdicts, take.steps[-1])
 
 
-def frames(take: Take, robot: Robot) -> Iterator[NDArray[np.uint8]]:
-    """All moments of a take, [720, 1280, 3] each: the robot on the left, the 2D world on the right."""
-    side = Side(take, robot)
-    with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX) as stage:
+def frames(take: Take, robot: Robot, quality: Quality = NORMAL) -> Iterator[NDArray[np.uint8]]:
+    """All moments of a take, [720, 1280, 3] each: the robot on the left, the agent's mind on the right."""
+    panel = panel_of(take, robot)
+    with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX, quality, take.record.readings) as stage:
         for step, picture in zip(take.steps, robot_pictures(take, stage), strict=True):
-            yield np.concatenate([picture, side.frame(step)], axis=1)
+            yield np.concatenate([picture, panel.frame(step)], axis=1)
 
 
-def robot_pictures(take: Take, stage: Stage) -> Iterator[NDArray[np.uint8]]:
-    """The robot's view at each moment; a moment that looks like the one before is not drawn anew."""
+def robot_pictures(take: Take, stage: Stage, inset_px: int = INSET_PX) -> Iterator[NDArray[np.uint8]]:
+    """The robot's view at each moment, contacts also from near; what looks like before is not drawn anew."""
+    bearing = stage.bearing(take.angles, take.planar[:, 0], take.pointing, take.moment_s)
+    episodes = close_ups(take)
     picture, drawn = np.empty(0, np.uint8), np.empty(0)
-    for angles, objects, touched in zip(take.angles, take.objects, take.touched, strict=True):
-        shown = np.concatenate([angles, objects.ravel(), touched])
+    for moment, (angles, objects) in enumerate(zip(take.angles, take.objects, strict=True)):
+        episode = next((each for each in episodes if each.first <= moment <= each.last), None)
+        fade = 0.0 if episode is None else episode.strength(moment)
+        touched, planar = take.touched[moment], take.planar[moment]
+        moved = [angles, objects.ravel(), touched, planar, bearing.angles[moment], [fade]]
+        shown = np.concatenate(moved)
         if drawn.size == 0 or np.abs(shown - drawn).max() > VISIBLE:
-            stage.pose(angles, objects)
+            stage.pose(angles, objects, bearing, moment)
             stage.highlight(touched)
+            stage.shine(*planar)
             picture, drawn = stage.picture(), shown
+            if episode is not None:
+                laid_in(picture, stage.close_up(episode.centre, episode.width, inset_px), fade)
         yield picture
 
 
-def frame_at(record: TrialRecord, robot: Robot, step: int) -> NDArray[np.uint8]:
-    """One such frame, after `step` whole steps; drawn larger than it is, so that edges are smooth.
+def frame_at(
+    record: TrialRecord,
+    robot: Robot,
+    step: int,
+    quality: Quality = QUALITIES["high"],
+    genotype: ArrayLike | None = None,
+) -> NDArray[np.uint8]:
+    """One such frame, after `step` whole steps.
 
     Raises:
         ValueError: If the record has no such step.
     """
     if not 0 <= step <= record.steps:
         raise ValueError(f"step {step} does not exist; this trial has steps 0 to {record.steps}")
-    take = kinematic_take(record, robot, frames_per_step=1)
-    panel = Side(take, robot).frame(step)
-    with Stage(robot, 2 * ROBOT_WIDTH_PX, 2 * HEIGHT_PX) as stage:
-        stage.pose(take.angles[step], take.objects[step])
-        stage.highlight(take.touched[step])
-        return np.concatenate([halved(stage.picture()), panel], axis=1)
+    take = kinematic_take(record, robot, 1, genotype)
+    panel = panel_of(take, robot).frame(step)
+    with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX, quality, record.readings) as stage:
+        return np.concatenate([moment_of(take, stage, step), panel], axis=1)
+
+
+def moment_of(take: Take, stage: Stage, moment: int, inset_px: int = INSET_PX) -> NDArray[np.uint8]:
+    """The robot's view at one moment of a take, as a film would show it."""
+    bearing = stage.bearing(take.angles, take.planar[:, 0], take.pointing, take.moment_s)
+    stage.pose(take.angles[moment], take.objects[moment], bearing, moment)
+    stage.highlight(take.touched[moment])
+    stage.shine(*take.planar[moment])
+    picture = stage.picture()
+    for episode in close_ups(take):
+        if episode.first <= moment <= episode.last:
+            inset = stage.close_up(episode.centre, episode.width, inset_px)
+            laid_in(picture, inset, episode.strength(moment))
+    return picture

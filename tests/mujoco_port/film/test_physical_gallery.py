@@ -6,10 +6,10 @@ import pytest
 
 from evolution.agents.recording import record_instruction
 from evolution.runs.sources import find_source
-from mujoco_port.film.gallery import CELL_WIDTH, CLOCK, ROBOT_WIDTH, STRIP, VIEW_HEIGHT, cell_pictures
+from mujoco_port.film.gallery import CELL_WIDTH, CLOCK, STRIP, VIEW_HEIGHT, cell_pictures
 from mujoco_port.film.physical_port import port_physical_gallery, start_of
-from mujoco_port.film.physical_take import physical_take
 from mujoco_port.film.stage import Stage
+from mujoco_port.film.take import physical_take
 
 
 @pytest.fixture(scope="module")
@@ -32,8 +32,9 @@ def last_clock(take, robot):
         angles=take.angles[moments],
         objects=take.objects[moments],
         touched=take.touched[moments],
+        planar=take.planar[moments],
     )
-    with Stage(robot, 2 * ROBOT_WIDTH, 2 * VIEW_HEIGHT) as stage:
+    with Stage(robot, CELL_WIDTH, VIEW_HEIGHT) as stage:
         *_, cell = cell_pictures(short, stage)
     return cell[4 : STRIP - 4, CELL_WIDTH - CLOCK : -4].astype(int)
 

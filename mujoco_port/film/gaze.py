@@ -1,0 +1,163 @@
+"""Where the robot looks, and whether it points: what a body does besides reaching.
+
+The agent's camera looks along S1, so the robot does: its neck turns the face there and keeps it level, no
+faster than a neck can, and the eyes, which are quicker, make up for the rest. None of it is physics.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d.constants import CHORD_END_DISTANCE
+from models.build import ROBOT_PREFIX
+from models.filmed import eye_joints, finger_joint
+from models.presence import Presence
+from models.robots import Robot
+
+NECK_LAG_S: Final = 0.22  # a neck does not jump to its aim
+CURL_S: Final = 0.4  # fingers take so long to bend
+BELOW: Final = 0.16  # [rad], what is looked at lies so far below where the face points
+STEP: Final = 1e-4  # [rad], of the difference quotients
+DAMPING: Final = 2e-3
+SETTLE: Final = 60  # steps from the rest pose to the first moment's
+
+
+@dataclass(frozen=True)
+class Bearing:
+    """F moments of everything that moves and does not act.
+
+    Attributes:
+        addresses: [N], where its joints stand among the model's positions.
+        angles: [F, N] in [rad].
+    """
+
+    addresses: NDArray[np.int64]
+    angles: NDArray[np.float64]
+
+
+class Head:
+    """A neck and two eyes that look at a place.
+
+    Args:
+        model: Of `models.filmed`.
+        data: Where it is posed; trunk and arm are the caller's.
+        presence: Of the robot.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, presence: Presence) -> None:
+        self._model, self._data, self._presence = model, data, presence
+        self._body = model.body(ROBOT_PREFIX + presence.head).id
+        neck = [model.joint(ROBOT_PREFIX + name) for name in presence.neck]
+        self.neck = np.array([joint.qposadr[0] for joint in neck])
+        self._limits = np.array([joint.range for joint in neck]).T
+        self._ahead, self._left = np.array(presence.ahead), np.array(presence.left)
+        self._eyes = [model.body(ROBOT_PREFIX + eye.name).id for eye in presence.eyes]
+
+    def aim(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Neck angles [3] that turn the face nearer to a place [3] in [m]: one damped Gauss-Newton step."""
+        here = self._data.qpos[self.neck].copy()
+        off = self._off(place)
+        slopes = np.empty((3, 3))
+        for joint, address in enumerate(self.neck):
+            self._data.qpos[address] += STEP
+            slopes[:, joint] = (self._off(place) - off) / STEP
+            self._data.qpos[address] = here[joint]
+        step = np.linalg.solve(slopes.T @ slopes + DAMPING * np.eye(3), slopes.T @ off)
+        return np.clip(here - step, *self._limits)
+
+    def eye_angles(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Turns of both eyes to the left and down, [2, 2] in [rad], to look at a place from there."""
+        rotation = self._data.xmat[self._body].reshape(3, 3)
+        angles = np.empty((2, 2))
+        for row, eye in zip(angles, self._eyes, strict=True):
+            way = rotation.T @ (place - self._data.xpos[eye])
+            way /= np.linalg.norm(way)
+            up = np.cross(self._ahead, self._left)
+            row[:] = np.arctan2(way @ self._left, way @ self._ahead), -np.arcsin(way @ up)
+        return np.clip(angles, -self._presence.eye_range, self._presence.eye_range)
+
+    def _off(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
+        """How far the face is turned away and tilted, [3]."""
+        mujoco.mj_kinematics(self._model, self._data)
+        rotation = self._data.xmat[self._body].reshape(3, 3)
+        ahead, left = rotation @ self._ahead, rotation @ self._left
+        way = place - self._data.xpos[self._body]
+        way /= np.linalg.norm(way)
+        return np.array([way @ left, way @ np.cross(ahead, left) + BELOW, left[2]])
+
+
+def looked_at(robot: Robot, alpha: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Where the agent's camera looks, [F, 3] in [m]: along S1, as far away as objects are."""
+    angle, far = np.radians(alpha), robot.plane.scale * CHORD_END_DISTANCE
+    height = np.full_like(angle, 0.02)
+    return np.stack([far * np.cos(angle), far * np.sin(angle), height], axis=-1)
+
+
+def bearing(
+    model: mujoco.MjModel,
+    robot: Robot,
+    angles: NDArray[np.float64],
+    alpha: NDArray[np.float64],
+    pointing: NDArray[np.bool_],
+    moment_s: float,
+) -> Bearing:
+    """Neck, eyes and fingers at F moments.
+
+    Args:
+        model: Of `models.filmed`.
+        robot: Its record.
+        angles: [F, J] in [rad], of what acts.
+        alpha: [F] in [deg], direction of S1.
+        pointing: [F], whether the hand is to point.
+        moment_s: [s] from one moment to the next.
+    """
+    presence = robot.presence
+    if presence is None:
+        return Bearing(np.empty(0, int), np.empty((len(angles), 0)))
+    data = mujoco.MjData(model)
+    head = Head(model, data, presence)
+    acting = [model.joint(ROBOT_PREFIX + name).qposadr[0] for name in robot.joints]
+    places = looked_at(robot, alpha)
+    eyes = np.zeros((2, 2))
+    rows = []
+    for moment, (posture, place) in enumerate(zip(angles, places, strict=True)):
+        data.qpos[acting] = posture
+        for _ in range(1 if moment else SETTLE):
+            fastest = presence.neck_speed * moment_s if moment else np.inf
+            wish = head.aim(place) - data.qpos[head.neck]
+            share = 1.0 - np.exp(-moment_s / NECK_LAG_S) if moment else 1.0
+            data.qpos[head.neck] += np.clip(share * wish, -fastest, fastest)
+        mujoco.mj_kinematics(model, data)
+        fastest = presence.eye_speed * moment_s if moment else np.inf
+        eyes = eyes + np.clip(head.eye_angles(place) - eyes, -fastest, fastest)
+        rows.append([*data.qpos[head.neck], *eyes.ravel()])
+    names = [ROBOT_PREFIX + name for eye in presence.eyes for name in eye_joints(eye)]
+    hands, curls = _hands(presence, _eased(pointing, moment_s))
+    addresses = [*head.neck, *(model.joint(name).qposadr[0] for name in [*names, *hands])]
+    return Bearing(np.array(addresses), np.concatenate([np.array(rows), curls], axis=1))
+
+
+def _hands(presence: Presence, curl: NDArray[np.float64]) -> tuple[list[str], NDArray[np.float64]]:
+    """Names [N] and angles [F, N] of the fingers' joints: the right hand points, the left one rests."""
+    right, left = presence.hands
+    names, columns = [], []
+    for finger in presence.fingers:
+        for phalanx, (pointing, resting) in enumerate(zip(finger.pointing, finger.resting, strict=True)):
+            names += [ROBOT_PREFIX + finger_joint(link, finger, phalanx) for link in (right, left)]
+            columns += [curl * pointing, np.full_like(curl, resting)]
+    return names, np.stack(columns, axis=1)
+
+
+def _eased(pointing: NDArray[np.bool_], moment_s: float) -> NDArray[np.float64]:
+    """How far the hand points, [F], from 0 to 1: as at the start, and from then on no faster than it can."""
+    curl = np.empty(len(pointing))
+    now = float(pointing[0])
+    for moment, wanted in enumerate(pointing):
+        now += float(np.clip(wanted - now, -moment_s / CURL_S, moment_s / CURL_S))
+        curl[moment] = now * now * (3.0 - 2.0 * now)
+    return curl
