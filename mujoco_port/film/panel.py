@@ -18,7 +18,7 @@ from arm2d import NON_EXPERIENCED, ActionWord, Instruction, ObjectWord
 from arm2d import constants as c
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
 from arm2d.video import DPI
-from mujoco_port.film.mind import Mind
+from mujoco_port.film.take import Mind
 
 FAINT: Final = "#6B6B6B"
 NEVER_MET: Final = "never met during evolution"

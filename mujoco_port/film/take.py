@@ -1,4 +1,4 @@
-"""What is filmed: a trial on the robot, moment by moment, with what is said of it beside."""
+"""What is filmed: a trial on the robot, moment by moment, and what the agent senses and thinks in it."""
 
 from __future__ import annotations
 
@@ -8,16 +8,88 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from arm2d import ActionWord, TrialRecord
-from arm2d.constants import DT
+from arm2d import ActionWord, Instruction, ObjectWord, Readings, TrialRecord
+from arm2d import constants as c
+from arm2d.controller import decode
 from arm2d.drawing import state_at
+from arm2d.instructions import ACTION_CODES, OBJECT_CODES
+from arm2d.progress import progress_of
 from models.robots import Robot
-from mujoco_port.film.kinematic import roll_out
-from mujoco_port.film.mind import Mind, mind_of, think
+from mujoco_port.film.kinematic import FRAMES_PER_STEP, roll_out
 
 if TYPE_CHECKING:
     from mujoco_port.acting.rollout import PhysicalRecord
     from mujoco_port.acting.verdict import Verdict
+
+
+@dataclass(frozen=True)
+class Mind:
+    """An agent's K steps, from what comes in to what goes out.
+
+    Attributes:
+        inputs: [K, 18], I1 to I18.
+        rates: [K, 3], of the inter-neurons, from 0 to 1.
+        motors: [K, 4], of the motor neurons, from 0 to 1.
+        share: [K + 1], how much of what is asked is done.
+        score: [K + 1], F1 + F2 + F3 so far; None where none is defined.
+    """
+
+    inputs: NDArray[np.float64]
+    rates: NDArray[np.float64]
+    motors: NDArray[np.float64]
+    share: NDArray[np.float64]
+    score: NDArray[np.float64] | None
+
+    @property
+    def steps(self) -> int:
+        """K."""
+        return len(self.inputs)
+
+    def heard(self, step: int, third: ActionWord) -> Instruction:
+        """The instruction heard in a step; `third` is the action that shares its code with another."""
+        codes = tuple(self.inputs[step, 12:15].astype(int)), tuple(self.inputs[step, 15:].astype(int))
+        known = [each for each in ActionWord if each < ActionWord.INDICATE or each is third]
+        action = next(each for each in known if ACTION_CODES[each] == codes[1])
+        return Instruction(action, next(each for each in ObjectWord if OBJECT_CODES[each] == codes[0]))
+
+
+def mind_of(record: TrialRecord, genotype: ArrayLike | None) -> Mind:
+    """The mind behind a recorded trial.
+
+    Without a genotype, neurons are shown by their states, and motors by the turns they brought about.
+    """
+    progress = progress_of(record)
+    if genotype is not None:
+        rates, motors = think(record.inputs, genotype, record.readings)
+    else:
+        rates, motors = _squash(record.states), _motors_of_turns(record.turns)
+    return Mind(record.inputs, rates, motors, progress.share, progress.score)
+
+
+def think(
+    inputs: NDArray[np.float64], genotype: ArrayLike, readings: Readings
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """What inter-neurons [K, 3] and motor neurons [K, 4] do while these inputs [K, 18] come in (eq. 1 to 3).
+
+    To be looked at: what decides a trial is the kernel's arithmetic.
+    """
+    net = decode(genotype, readings)
+    y, rates = np.zeros(c.N_INTER), np.empty((len(inputs), c.N_INTER))
+    sensed = _squash(net.gain[0] * inputs + net.input_bias[0])  # eq. 1
+    for step, s in enumerate(sensed):
+        drive = s @ net.sensory_weights[0] + _squash(y + net.inter_biases[0]) @ net.recurrent_weights[0]
+        y = y + c.DT / net.decay_constants[0] * (drive - y)  # eq. 2
+        rates[step] = _squash(y + net.inter_biases[0])
+    return rates, _squash(rates @ net.motor_weights[0] + net.motor_bias[0])  # eq. 3
+
+
+def _squash(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    return 1.0 / (1.0 + np.exp(-values))
+
+
+def _motors_of_turns(turns: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What four motor neurons must have done, [K, 4], for turns [K, 2]: go, and which way, for S1 and S2."""
+    return np.stack([(turns != 0.0) * 1.0, 0.5 - 0.5 * np.sign(turns)], axis=-1).reshape(-1, 4)
 
 
 @dataclass(frozen=True)
@@ -48,7 +120,7 @@ class Take:
     @property
     def moment_s(self) -> float:
         """[s] from one moment to the next."""
-        return float(self.steps[1] - self.steps[0]) * DT if len(self.steps) > 1 else DT
+        return float(self.steps[1] - self.steps[0]) * c.DT if len(self.steps) > 1 else c.DT
 
     @property
     def pointing(self) -> NDArray[np.bool_]:
@@ -99,8 +171,6 @@ def physical_take(
         verdict: What became of it.
         genotype: [84], of the agent.
     """
-    from mujoco_port.film.kinematic import FRAMES_PER_STEP
-
     rows_per_step = len(record.alpha) // record.steps
     rows = np.arange(0, len(record.alpha), round(rows_per_step / FRAMES_PER_STEP))
     steps = rows / rows_per_step
@@ -119,9 +189,9 @@ def physical_take(
 
 def _acting_mind(planar: TrialRecord, record: PhysicalRecord, genotype: ArrayLike | None) -> Mind:
     """The agent's mind while the robot acts: in the planar world, or in closed loop in the robot itself."""
-    from mujoco_port.acting.verdict import progress_of
+    from mujoco_port.acting.verdict import progress_of as acting_progress
 
-    progress, goal = progress_of(record, planar.readings)
+    progress, goal = acting_progress(record, planar.readings)
     ends = np.arange(record.steps + 1) * (len(progress) // record.steps)
     share = np.minimum(1.0, np.concatenate([[0.0], progress])[ends] / goal)
     mind = replace(mind_of(planar, genotype), share=share, score=None)

@@ -8,8 +8,8 @@ import pytest
 from arm2d import ActionWord, Condition, Instruction, LabelChanges, ObjectWord, Readings, draw_trials
 from arm2d import record_trial as record_one
 from arm2d.controller import decode
-from mujoco_port.film.mind import mind_of
 from mujoco_port.film.panel import MindPanel
+from mujoco_port.film.take import mind_of
 
 CHANGE = 3
 
