@@ -50,12 +50,21 @@ class Scene:
     Args:
         axes: Where to draw; cleared of ticks and scaled to the world.
         record: The trial.
-        caption: Whether to write the instruction above the world and, in the end, how it went.
+        caption: Whether to write the instruction above the world.
         note: A line under the instruction, such as the agent and the trial it is about.
+        outcome: Whether to say how it went, by default with the caption; not of a trial that goes on.
     """
 
-    def __init__(self, axes: Axes, record: TrialRecord, *, caption: bool = True, note: str = "") -> None:
-        self._record, self._caption = record, caption
+    def __init__(
+        self,
+        axes: Axes,
+        record: TrialRecord,
+        *,
+        caption: bool = True,
+        note: str = "",
+        outcome: bool | None = None,
+    ) -> None:
+        self._record, self._outcome = record, caption if outcome is None else outcome
         axes.set(xlim=LIMITS[0], ylim=LIMITS[1], aspect="equal", facecolor=FLOOR, xticks=[], yticks=[])
         axes.spines[:].set_visible(False)
         points = _points_per_cm(axes)
@@ -114,7 +123,7 @@ class Scene:
     def _time(self, step: float) -> str:
         """The clock and, at the end of a captioned trial, whether the instruction was carried out."""
         outcome = ""
-        if self._caption and step == self._record.steps:
+        if self._outcome and step == self._record.steps:
             outcome = "carried out, " if self._record.success else "not carried out, "
         return f"{outcome}{step * c.DT:.1f} s"
 
