@@ -29,8 +29,8 @@ class Readings:
     takes the same total step as 0.04 with 0.1."""
 
     parent_scaling: Literal["raw", "cubed", "excess", "rank"] = "raw"
-    """"fitness-proportional": parents are drawn in proportion to their fitness, to its cube, to what it
-    exceeds that of the best genotype that cannot be a parent by, or to their rank from 2 down to 0."""
+    """"fitness-proportional": parents are drawn in proportion to their fitness, to its cube, to its excess
+    over the best genotype that is no candidate, or to their rank, from 2 for the best to 0 for the last."""
 
     ties: Literal["elders", "children"] = "elders"
     """Not said: of equally fit genotypes those copied on unchanged rank before their children, or after
