@@ -58,13 +58,13 @@ def asked_instructions(condition: Condition, asked: Asked | Sequence[str]) -> tu
     return tuple(Instruction.parse(text) for text in asked)
 
 
-class _Drawing:
+class _Source:
     """What both environments draw trials from."""
 
     def __init__(
         self, condition: Condition | str, asked: Asked | Sequence[str], readings: Readings | None
     ) -> None:
-        self.condition = Condition(condition)
+        self.condition = Condition.parse(condition)
         self.instructions = asked_instructions(self.condition, asked)
         self.readings = readings or Readings()
 
@@ -97,16 +97,16 @@ class InstructionsEnv(gymnasium.Env):
         reward: Reward = "end",
         render_mode: str | None = None,
     ) -> None:
-        self.drawing = _Drawing(condition, instructions, readings)
+        self.source = _Source(condition, instructions, readings)
         self.reward, self.render_mode = reward, render_mode
-        self.world = World(self.drawing.readings)
+        self.world = World(self.source.readings)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float64], dict[str, Any]]:
         """Begin a trial; `options["instruction"]` chooses what is asked, such as "touch green"."""
         super().reset(seed=seed)
-        start = self.drawing.draw(1, self.np_random)
+        start = self.source.draw(1, self.np_random)
         self.instruction = start.instructions[0]
         if options and "instruction" in options:
             self.instruction = Instruction.parse(options["instruction"])
@@ -120,7 +120,8 @@ class InstructionsEnv(gymnasium.Env):
     ) -> tuple[NDArray[np.float64], float, bool, bool, dict[str, Any]]:
         """Turn both joints; terminated when the trial ends."""
         inputs = self.world.step(np.asarray(action) - 1)
-        ended, now, info = self.world.ended, self._now(), {"instruction": str(self.instruction)}
+        ended, now = self.world.ended, self._now()
+        info: dict[str, Any] = {"instruction": str(self.instruction)}
         reward = now - self._paid if ended or self.reward == "progress" else 0.0
         self._paid += reward
         if ended:
@@ -163,7 +164,7 @@ class InstructionsVectorEnv(VectorEnv):
         reward: Reward = "end",
     ) -> None:
         self.num_envs = num_envs
-        self.drawing, self.reward = _Drawing(condition, instructions, readings), reward
+        self.source, self.reward = _Source(condition, instructions, readings), reward
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
 
@@ -172,7 +173,7 @@ class InstructionsVectorEnv(VectorEnv):
     ) -> tuple[NDArray[np.float64], dict[str, Any]]:
         """Begin N trials."""
         super().reset(seed=seed)
-        self.world = VectorWorld(self.drawing.draw(self.num_envs, self.np_random), self.drawing.readings)
+        self.world = VectorWorld(self.source.draw(self.num_envs, self.np_random), self.source.readings)
         self._over, self._paid = np.zeros(self.num_envs, np.bool_), np.zeros(self.num_envs)
         return self.world.inputs.copy(), {}
 
@@ -185,7 +186,7 @@ class InstructionsVectorEnv(VectorEnv):
         began = np.flatnonzero(self._over)
         self.world.step(np.asarray(actions) - 1)
         if len(began):
-            self.world.restart(began, self.drawing.draw(len(began), self.np_random))
+            self.world.restart(began, self.source.draw(len(began), self.np_random))
             self._paid[began] = 0.0
         self._over = self.world.ended
         rewards, info = np.zeros(self.num_envs), {}

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
+from functools import cache
 from itertools import pairwise
 from math import degrees
 from typing import Any, Literal, get_args, get_origin, get_type_hints
@@ -171,6 +172,7 @@ class Readings:
         return (right - half, right + half), (left - half, left + half)
 
 
+@cache
 def choices() -> dict[str, tuple[str, ...]]:
     """The allowed values of every reading that is a choice between words."""
     hints = get_type_hints(Readings)

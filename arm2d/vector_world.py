@@ -159,7 +159,10 @@ class VectorWorld:
     def scores(self) -> TrialScores:
         """F1 to F3 and success of every trial, [1, N]; of one that goes on, as if it ended now."""
         stepping.score_now(self._blocks, self._arrays, self._world, self._outcomes)
-        return TrialScores(*(array.copy() for array in self._outcomes))
+        kept = self._outcomes
+        return TrialScores(
+            kept.f1.copy(), kept.f2.copy(), kept.f3.copy(), kept.success.copy(), kept.steps.copy()
+        )
 
     def positions(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
         """Where everything is: alpha and beta [N, 2] in [deg], discs [N, 3, 2] in [cm], contacts [N, 3].

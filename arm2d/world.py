@@ -96,7 +96,7 @@ class World:
         return self._current.scores()
 
     def record(self) -> TrialRecord:
-        """All steps so far, as `record_trial` gives them; the controller's own states are unknown, hence 0."""
+        """All steps so far, as `record_trial` gives them; a controller's own states are unknown, hence 0."""
         rows = np.array(self._rows).reshape(-1, exchange.RECORD_COLUMNS)
         rows[:, exchange.RECORD_STATE : exchange.RECORD_STATE + c.N_INTER] = 0.0
         return record_of(

@@ -46,8 +46,8 @@ def start(blocks: Blocks, which: Integers, trials: TrialArrays, world: World) ->
     for trial in which:
         b, i = trial // N_LANES, trial % N_LANES
         start_lane(blocks.s[b], blocks.n[b], i, trial, trials, world)
-    for b in range(len(blocks.s)):
-        _sense(blocks, b, _lanes_of(blocks, b), world)
+    for trial in which:
+        _sense(blocks, trial // N_LANES, _lanes_of(blocks, trial // N_LANES), world)
 
 
 @compiled(allocates=False)
