@@ -40,7 +40,7 @@ NARROWEST, WIDEST = 40, 80
 UNWRAPPED: Final = 100_000
 OPTION_AT_START: Final = re.compile(r"^\W*(--[a-z][\w.-]*)", re.MULTILINE)
 WORDINGS: Final = (
-    (r"^Error parsing ", ""),
+    (r"^Error parsing |'None', ", ""),
     (r"invalid literal for int\(\) with base 10: (.*)", r"a whole number is needed, not \1"),
     (r"could not convert string to float: (.*)", r"a number is needed, not \1"),
     (r"no type matching {(.*)} could be instantiated from \[(.*)\]", r"give one of \1, not \2"),
@@ -49,8 +49,7 @@ WORDINGS: Final = (
     (r"Unrecognized options: (.*)", r"no argument is wanted where \1 stands"),
 )
 STYLES: Final = re.compile(r"\x1b\[[\d;]*m")
-BLANK_ROW: Final = re.compile(r"[│|]\s+[│|]")
-BOX: Final = ("╭", "+")
+BLANK_ROW: Final = re.compile(r"│\s+│")
 
 REGISTRY: Final = ConstructorRegistry()
 
@@ -69,7 +68,7 @@ def read_command(kind: type[T], arguments: Sequence[str], prog: str, default: T 
         SystemExit: With code 0, after help was printed.
     """
     asks_for_help = bool({"-h", "--help"} & set(arguments))
-    width, page, complaint = _width(), _Page(), io.StringIO()
+    width, page, complaint = _width(), _Page(asks_for_help), io.StringIO()
     try:
         with (
             _columns(width if asks_for_help else UNWRAPPED),
@@ -121,15 +120,15 @@ def _columns(width: int) -> Iterator[None]:
 
 
 class _Page(io.StringIO):
-    """What help is collected in; styled and encoded for where it goes."""
+    """What help is collected in: styled for where it goes; a complaint stands in a box that can be read."""
 
-    def __init__(self) -> None:
+    def __init__(self, asks_for_help: bool) -> None:
         super().__init__()
-        self._goes_to = sys.stdout
+        self._goes_to, self._asks_for_help = sys.stdout, asks_for_help
 
     @property
     def encoding(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
-        return self._goes_to.encoding
+        return self._goes_to.encoding if self._asks_for_help else "utf-8"
 
     def isatty(self) -> bool:
         return self._goes_to.isatty()
@@ -138,15 +137,9 @@ class _Page(io.StringIO):
 def _fitted(text: str, width: int) -> str:
     """Help whose description is as wide as its boxes, and without their empty rows."""
     lines = [line for line in text.splitlines() if not BLANK_ROW.fullmatch(STYLES.sub("", line))]
-    boxes = next((i for i, line in enumerate(lines) if STYLES.sub("", line).startswith(BOX)), len(lines))
-    wrapped = [
-        part for line in lines[:boxes] for part in ([line] if STYLES.search(line) else _wrap(line, width))
-    ]
-    return "\n".join([*wrapped, *lines[boxes:]])
-
-
-def _wrap(line: str, width: int) -> list[str]:
-    return textwrap.wrap(line, width) or [""]
+    return "\n".join(
+        line if len(STYLES.sub("", line)) <= width else textwrap.fill(line, width) for line in lines
+    )
 
 
 def _about_options(kind: type[T], arguments: Sequence[str], prog: str, default: T | None) -> str | None:
@@ -179,7 +172,7 @@ def _sentence(complaint: str, prog: str) -> str:
     lines = [line[1:-1].strip() for line in complaint.splitlines()[1:-1]]
     rows = []
     for line in lines:
-        if not line.strip("─-"):
+        if not line.strip("─"):
             break
         rows.append(line)
     missing = [row for row in rows if re.fullmatch(r"(--[\w.-]+ )?[A-Z]+(\.\.\.)?", row)]
@@ -210,10 +203,10 @@ def _field_spec(owner: type, field: Field, kind: Any, default: object) -> Struct
     """A field, its default left out of the help where it says nothing."""
     if get_origin(kind) is not Annotated and (several := _several(kind)):
         kind = Annotated[kind, arg(metavar=several)]
+    if bool in get_args(kind):  # neither yes nor no is the default, so both can be said
+        kind = Annotated[kind, FlagConversionOff]
     if default is None or default == () or isinstance(default, bool):
         kind = Annotated[kind, arg(help_behavior_hint="")]
-    if default is None and bool in get_args(kind):
-        kind = Annotated[kind, FlagConversionOff]
     return StructFieldSpec(field.name, kind, default, helptext=partial(_field_help, owner, field.name))
 
 

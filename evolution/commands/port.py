@@ -100,7 +100,7 @@ class Port(AgentCommand):
 
         records = [self._record(source, instruction) for instruction in source.condition.instructions]
         kind = f"-{self.closed_loop}" if self.closed_loop else "-physics" if self.physics else ""
-        output = self._place(source, f"{ALL}{kind}")
+        output = self._place(source, f"gallery{kind}")
         carried_out = sum(record.success for record in records)
         title = f"{source.name}: nine instructions, two of them never met; {carried_out} carried out"
         if not self.acts:
