@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import Final, NamedTuple, Protocol
 
-from evolution.answers import BAD_INPUT, answer
+from evolution.answers import BAD_INPUT, SENTENCE_PREFIX, answer
 
 
 class Entry(NamedTuple):
@@ -88,6 +89,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _main(arguments: Sequence[str]) -> int:
+    warnings.formatwarning = _one_line
+    if os.path.expanduser("~") == "~":  # a user without a home, of which arm2d.cache tells
+        import logging
+
+        logging.getLogger("matplotlib").setLevel(logging.ERROR)
     # A run is one thread; idle threads of linear algebra would only cost memory.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
@@ -103,6 +109,11 @@ def _main(arguments: Sequence[str]) -> int:
         print(f"wordarm {versions()['wordarm']}, revision {revision()}")
         return 0
     return parse(arguments).run()
+
+
+def _one_line(message: Warning | str, *_: object, **__: object) -> str:
+    """How a warning is shown: to a user, its place in our sources says nothing."""
+    return f"{SENTENCE_PREFIX}{message}\n"
 
 
 def overview() -> str:

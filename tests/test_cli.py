@@ -173,7 +173,12 @@ def test_a_sound_run_needs_no_repair(run, capsys):
         (["evolve", "--seed=-1"], "seed = -1 must be a whole number from 0 to 2**63 - 1"),
         (["evolve", "--readings.object-radius=20"], "reading object_radius = 20 must lie in [0.1, 11.8]"),
         (["evolve", "--readings.object-radius=nan"], "reading object_radius = nan must lie in"),
-        (["evolve", "--output={file}/run"], "cannot be made: Not a directory; choose another folder"),
+        (["evolve", "--output={file}/run"], "file is a file; choose another folder"),
+        (["evolve", "--output={link}"], "link is a link to nowhere, which does not exist; choose another"),
+        (
+            ["evaluate", "best-generaliser", "--trials-per-area=1", "--output={link}/x"],
+            "is a link to nowhere",
+        ),
         (["evolve", "--output={run}"], "was started with settings.population = 10, not 100; settings.elites"),
         (["evaluate", "{none}"], "give a run folder, a genotype file (.npz, .npy) or a shipped champion"),
         (["evaluate", "{empty}"], "holds no run: config.toml is missing; start one with: wordarm evolve"),
@@ -185,7 +190,7 @@ def test_a_sound_run_needs_no_repair(run, capsys):
         (["evaluate", "{run}", "--trials-per-area=0"], "0 trials per area"),
         (
             ["evaluate", "{run}", "--trials-per-area=1", "--output={file}/x"],
-            "cannot be made: Not a directory",
+            "file is a file; choose another folder",
         ),
         (["verify", "{empty}"], "holds no run"),
         (["verify", "{none}", "--repair"], "is not a folder"),
@@ -227,7 +232,14 @@ def test_a_sound_run_needs_no_repair(run, capsys):
 def test_bad_input_gets_one_sentence_and_exit_code_2(run, tmp_path, capsys, arguments, sentence):
     (tmp_path / "empty").mkdir()
     (tmp_path / "file").write_text("dear reader")
-    places = {"run": run, "file": tmp_path / "file", "empty": tmp_path / "empty", "none": tmp_path / "none"}
+    (tmp_path / "link").symlink_to("nowhere")
+    places = {
+        "run": run,
+        "file": tmp_path / "file",
+        "empty": tmp_path / "empty",
+        "none": tmp_path / "none",
+        "link": tmp_path / "link",
+    }
     before = sorted(tmp_path.rglob("*"))
     assert main([each.format(**places) for each in arguments]) == 2
     captured = capsys.readouterr()

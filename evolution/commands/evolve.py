@@ -100,7 +100,7 @@ class Evolve(FromPreset):
 
 def _announce(path: Path, generation: int) -> None:
     """Say where the run starts, and what the user is waiting for if that will take a while."""
-    from arm2d.compiling import cache_folder
+    from arm2d.cache import cache_folder
 
     print(f"{path}: from generation {generation} on")
     compiled = cache_folder()
