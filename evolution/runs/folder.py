@@ -17,8 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evolution.runs.history import History, history_from_arrays
-from evolution.search.config import RunConfig
-from evolution.search.toml import read_toml_file
 from evolution.runs.storage import (
     DamagedFileError,
     make_folder,
@@ -27,6 +25,8 @@ from evolution.runs.storage import (
     write_arrays,
     write_atomically,
 )
+from evolution.search.config import RunConfig
+from evolution.search.toml import read_toml_file
 
 GENERATIONS_PER_PART: Final = 100
 CONFIG: Final = "config.toml"

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
+from evolution.runs.storage import DamagedFileError
 from evolution.search.algorithm import mean_in_order, rank
 from evolution.search.config import RunConfig
 from evolution.search.population import Population
 from evolution.search.settings import N_BEST
-from evolution.runs.storage import DamagedFileError
 
 # F1, F2 and F3 are at most 1 each.
 LARGEST_FITNESS: Final = 3.0

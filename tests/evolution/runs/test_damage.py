@@ -1,7 +1,6 @@
 import shutil
 
 import pytest
-from tests.evolution.small_runs import SMALL, contents
 
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
@@ -9,6 +8,7 @@ from evolution.runs.run import Watcher, evolve
 from evolution.runs.storage import DamagedFileError, read_arrays, write_arrays
 from evolution.trust import repair as repair_module
 from evolution.trust.repair import repair
+from tests.evolution.small_runs import SMALL, contents
 
 FIRST, SECOND, LAST = "gen-000000-000099.npz", "gen-000100-000199.npz", "gen-000200-000229.npz"
 
