@@ -44,7 +44,7 @@ TEMPLATE: Final = "template.html"
 FIGURE_FOLDERS: Final = {"lineage": "Its line of ancestors", "behaviour": "How it does it"}
 
 
-def write_report(results: Results, path: Path) -> Path:
+def write_report(results: Results, path: Path | str) -> Path:
     """Write the page.
 
     Args:
@@ -58,6 +58,7 @@ def write_report(results: Results, path: Path) -> Path:
         ValueError: If a file of a shown run is damaged.
         OSError: If it cannot be written.
     """
+    path = Path(path)
     make_folder(path.parent)
     write_atomically(path, render(results, path.parent).encode())
     return path

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
+from arm2d.records import brief
 from models.robots import get_robot
 
 Loop = Literal["open", "delayed", "geometric", "camera"]
@@ -42,6 +43,8 @@ class Agent:
     genotype: NDArray[np.float64]
     instructions: tuple[Instruction, ...]
     readings: Readings
+
+    __repr__ = brief
 
 
 @dataclass(frozen=True)

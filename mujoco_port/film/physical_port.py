@@ -1,7 +1,6 @@
-"""Putting a trial on an acting robot: the public face of the physics for trials of one agent.
+"""Putting a trial on an acting robot: motors, free objects, contacts, verdicts.
 
-from mujoco_port.film.physical_port import port_physical_trial
-verdict = port_physical_trial(record, genotype, "touch-red.mp4")
+verdict = mujoco_port.port_physical_trial(record, genotype, "touch-red.mp4")
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ ClosedLoopName = Literal["geometric", "camera"]
 
 def port_physical_trial(
     record: TrialRecord,
-    genotype: NDArray[np.float64],
+    genotype: NDArray[np.float64] | None = None,
     output: Path | str | None = None,
     *,
     robot: str = "icub",
@@ -38,7 +37,7 @@ def port_physical_trial(
 
     Args:
         record: The trial in the 2D world, with its start.
-        genotype: [84], of the agent.
+        genotype: [84], of the agent; None if there is none: the robot follows the record to its end.
         output: The video; None if none is wanted.
         robot: Name of a record in `models.robots`.
         closed_loop: Where the agent's inputs come from: None, the 2D world; "geometric", the robot's skin and
@@ -48,9 +47,12 @@ def port_physical_trial(
         What became of the instruction on the robot.
 
     Raises:
+        ValueError: If an agent is missing whose loop is to be closed.
         NoPhysicsError: If the robot's record says too little for it to act.
         UnknownRobotError, NoRenderingError, OutOfReachError, OSError: As `port_trial`.
     """
+    if genotype is None and closed_loop is not None:
+        raise ValueError(f"a loop that is closed ({closed_loop}) needs an agent; give its genotype")
     path = None if output is None else writable(Path(output), ".mp4")
     chosen = get_robot(robot)
     if path is not None or closed_loop == "camera":
@@ -110,9 +112,11 @@ def port_physical_gallery(
 
 
 def _carry_out(
-    lab: Lab, record: TrialRecord, genotype: NDArray[np.float64], closed_loop: ClosedLoopName | None
+    lab: Lab, record: TrialRecord, genotype: NDArray[np.float64] | None, closed_loop: ClosedLoopName | None
 ) -> tuple[PhysicalRecord, Verdict]:
     """One trial on the robot, with the agent's inputs from where they are wanted."""
+    if genotype is None:
+        return lab.follow(record)
     trial = start_of(record)
     if closed_loop is None:
         return lab.open_loop(genotype, trial, record.readings)

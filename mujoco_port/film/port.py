@@ -1,7 +1,6 @@
-"""Putting a trial on the robot: the public face of this package.
+"""Putting a trial on the robot: the hand follows S2's end, the objects follow the discs.
 
-from mujoco_port.film.port import port_trial
-port_trial(record, Path("touch-red.mp4"))
+mujoco_port.port_trial(record, "touch-red.mp4")
 """
 
 from __future__ import annotations

@@ -19,7 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 import pinocchio as pin
 
-from models.robots import Robot
+from arm2d.records import brief
+from models.robots import Robot, get_robot
 from mujoco_port.reach.hand import hand_model
 from mujoco_port.reach.quadratic import bounded, relaxed
 
@@ -55,9 +56,14 @@ class HandPose:
     position: np.ndarray
     rotation: np.ndarray
 
+    __repr__ = brief
+
 
 class ArmKinematics:
     """Forward and inverse kinematics of the joints that act; angles in the order of the robot's `joints`.
+
+    Args:
+        robot: Its record, or its name.
 
     Attributes:
         robot: The robot's record.
@@ -66,7 +72,8 @@ class ArmKinematics:
         upper: [J] in [rad], upper joint limits.
     """
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot | str = "icub") -> None:
+        robot = get_robot(robot) if isinstance(robot, str) else robot
         self.robot = robot
         self._model, self._hand = hand_model(robot)
         self._data = self._model.createData()
