@@ -166,7 +166,8 @@ def _figures_beside(agent: Agent) -> Iterable[tuple[str, str]]:
 
 def _films(experiment: Path, home: Path) -> Iterable[tuple[str, str]]:
     """(name, relative link) of every film that lies beside the runs."""
-    for path in sorted([*experiment.glob("videos/*.mp4"), *experiment.glob("*/*/videos/*.mp4")]):
+    films = [*experiment.glob("videos/[!.]*.mp4"), *experiment.glob("*/*/videos/[!.]*.mp4")]
+    for path in sorted(films):
         parts = [part for part in path.relative_to(experiment).parts[:-1] if part != "videos"]
         yield ", ".join([*parts, path.stem.replace("-", " ")]), os.path.relpath(path, home)
 

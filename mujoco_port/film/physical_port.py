@@ -6,6 +6,7 @@ verdict = mujoco_port.port_physical_trial(record, genotype, "touch-red.mp4")
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -14,8 +15,8 @@ from numpy.typing import NDArray
 
 from arm2d import TrialRecord, Trials
 from models.robots import get_robot
-from mujoco_port.film.gl import choose_back_end
-from mujoco_port.film.port import check_gallery, writable
+from mujoco_port.film.gl import choose_back_end, drawing, refuse_other_renderer
+from mujoco_port.film.port import check_gallery, film_path
 
 if TYPE_CHECKING:
     from mujoco_port.acting.lab import Lab
@@ -53,18 +54,17 @@ def port_physical_trial(
     """
     if genotype is None and closed_loop is not None:
         raise ValueError(f"a loop that is closed ({closed_loop}) needs an agent; give its genotype")
-    path = None if output is None else writable(Path(output), ".mp4")
+    path = None if output is None else film_path(output)
     chosen = get_robot(robot)
-    if path is not None or closed_loop == "camera":
-        choose_back_end()
-    from mujoco_port.acting.lab import Lab
+    with drawing() if path is not None or closed_loop == "camera" else nullcontext():
+        from mujoco_port.acting.lab import Lab
 
-    physical, verdict = _carry_out(Lab(chosen), record, genotype, closed_loop)
-    if path is not None:
-        from mujoco_port.film.physical_take import physical_take
-        from mujoco_port.film.video import write_take
+        physical, verdict = _carry_out(Lab(chosen), record, genotype, closed_loop)
+        if path is not None:
+            from mujoco_port.film.physical_take import physical_take
+            from mujoco_port.film.video import write_take
 
-        write_take(physical_take(record, physical, verdict), chosen, path)
+            write_take(physical_take(record, physical, verdict), chosen, path)
     return verdict
 
 
@@ -94,21 +94,21 @@ def port_physical_gallery(
         ValueError: If there are not nine records. All other errors as `port_physical_trial`.
     """
     check_gallery(records)
-    path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
-    choose_back_end()
-    from rich.progress import track
+    path, chosen = film_path(output), get_robot(robot)
+    with drawing():
+        from rich.progress import track
 
-    from mujoco_port.acting.lab import Lab
-    from mujoco_port.film.gallery import write_gallery
-    from mujoco_port.film.physical_take import physical_take
+        from mujoco_port.acting.lab import Lab
+        from mujoco_port.film.gallery import write_gallery
+        from mujoco_port.film.physical_take import physical_take
 
-    lab, takes, verdicts = Lab(chosen), [], []
-    for record in track(records, "trials on the robot"):
-        physical, verdict = _carry_out(lab, record, genotype, closed_loop)
-        takes.append(physical_take(record, physical, verdict))
-        verdicts.append(verdict)
-    title += f", {sum(verdict.success for verdict in verdicts)} by the robot"
-    return (path, write_gallery(takes, chosen, title, path)), verdicts
+        lab, takes, verdicts = Lab(chosen), [], []
+        for record in track(records, "trials on the robot"):
+            physical, verdict = _carry_out(lab, record, genotype, closed_loop)
+            takes.append(physical_take(record, physical, verdict))
+            verdicts.append(verdict)
+        title += f", {sum(verdict.success for verdict in verdicts)} by the robot"
+        return (path, write_gallery(takes, chosen, title, path)), verdicts
 
 
 def _carry_out(
@@ -122,6 +122,7 @@ def _carry_out(
         return lab.open_loop(genotype, trial, record.readings)
     if closed_loop == "geometric":
         return lab.closed_loop(genotype, trial, record.readings)
+    refuse_other_renderer()
     from mujoco_port.acting.camera import CameraEyes
 
     with CameraEyes(lab.body) as eyes:

@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import TrialRecord
+from arm2d.films import find_encoder, write_png
 from models.robots import get_robot
-from mujoco_port.film.gl import choose_back_end
+from mujoco_port.film.gl import drawing
 
 N_GALLERY: Final = 9
 
@@ -36,11 +37,11 @@ def port_trial(record: TrialRecord, output: Path | str, *, robot: str = "icub") 
         OutOfReachError: If the robot cannot follow.
         OSError: If the file cannot be written.
     """
-    path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
-    choose_back_end()
-    from mujoco_port.film.video import write_video
+    path, chosen = film_path(output), get_robot(robot)
+    with drawing():
+        from mujoco_port.film.video import write_video
 
-    write_video(record, chosen, path)
+        write_video(record, chosen, path)
     return path
 
 
@@ -62,14 +63,14 @@ def port_gallery(
         ValueError: If there are not nine records. All other errors as `port_trial`.
     """
     check_gallery(records)
-    path, chosen = writable(Path(output), ".mp4"), get_robot(robot)
-    choose_back_end()
-    from mujoco_port.film.gallery import write_gallery
-    from mujoco_port.film.kinematic import FRAMES_PER_STEP
-    from mujoco_port.film.take import kinematic_take
+    path, chosen = film_path(output), get_robot(robot)
+    with drawing():
+        from mujoco_port.film.gallery import write_gallery
+        from mujoco_port.film.kinematic import FRAMES_PER_STEP
+        from mujoco_port.film.take import kinematic_take
 
-    takes = [kinematic_take(record, chosen, FRAMES_PER_STEP) for record in records]
-    return path, write_gallery(takes, chosen, title, path)
+        takes = [kinematic_take(record, chosen, FRAMES_PER_STEP) for record in records]
+        return path, write_gallery(takes, chosen, title, path)
 
 
 def check_gallery(records: Sequence[TrialRecord]) -> None:
@@ -81,12 +82,16 @@ def check_gallery(records: Sequence[TrialRecord]) -> None:
 def port_picture(record: TrialRecord, step: int, output: Path | str, *, robot: str = "icub") -> Path:
     """Write one moment of a trial on a robot as a PNG; arguments and errors as `port_trial`."""
     path, chosen = writable(Path(output), ".png"), get_robot(robot)
-    choose_back_end()
-    import imageio.v3 as imageio
+    with drawing():
+        from mujoco_port.film.video import frame_at
 
-    from mujoco_port.film.video import frame_at
+        return write_png(frame_at(record, chosen, step), path)
 
-    imageio.imwrite(path, frame_at(record, chosen, step))
+
+def film_path(output: Path | str) -> Path:
+    """The path, if a film can be encoded and written there: told before a minute of drawing."""
+    path = writable(Path(output), ".mp4")
+    find_encoder()
     return path
 
 

@@ -99,7 +99,9 @@ def test_the_robot_follows_it_to_its_end_and_is_judged(lab):
 
 
 def test_more_steps_than_a_trial_on_the_robot_has_are_refused(lab):
-    with pytest.raises(ValueError, match="this trial has 300 steps of 0.1 s; on an acting robot it can have"):
+    with pytest.raises(
+        ValueError, match=r"this trial has 300 steps of 0\.1 s; on an acting robot it can have"
+    ):
         lab.follow(drive("indicate green", np.full(301, 60.0), np.full(301, 90.0)))
 
 
