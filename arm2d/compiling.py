@@ -10,7 +10,6 @@ named after the sources of the whole package.
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Callable
 from functools import cache
@@ -18,6 +17,8 @@ from pathlib import Path
 from typing import Any
 
 import numba
+
+from arm2d.sources import sources_digest
 
 
 def compiled(function: Callable | None = None, *, allocates: bool = True, **options: Any) -> Any:
@@ -45,17 +46,9 @@ def compiled(function: Callable | None = None, *, allocates: bool = True, **opti
 def cache_folder() -> str | None:
     """Where machine code is kept, below the user's cache folder; None if nothing can be written there."""
     home = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    folder = Path(home) / "wordarm" / f"kernel-{_sources_digest()}"
+    folder = Path(home) / "wordarm" / f"kernel-{sources_digest('arm2d')}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError:
         return None
     return str(folder) if os.access(folder, os.W_OK) else None
-
-
-def _sources_digest() -> str:
-    """Changes with any source file of this package."""
-    digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.rglob("*.py")):
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:12]
