@@ -22,3 +22,6 @@ from .trials import TrialScores as TrialScores
 from .trials import draw_trials as draw_trials
 from .video import Panel as Panel
 from .video import render_video as render_video
+from .worlds.vector_world import INPUT_NAMES as INPUT_NAMES
+from .worlds.vector_world import VectorWorld as VectorWorld
+from .worlds.world import World as World
