@@ -13,7 +13,7 @@ from typing import Final
 from arm2d import TrialRecord
 from arm2d.films import find_encoder, write_png
 from models.robots import get_robot
-from mujoco_port.film.gl import drawing
+from mujoco_port.film.gl import choose_back_end, drawing
 
 N_GALLERY: Final = 9
 
@@ -95,10 +95,22 @@ def film_path(output: Path | str) -> Path:
     return path
 
 
+def check_films() -> None:
+    """Refuse, before a folder is made, if no film can be drawn or encoded here.
+
+    Raises:
+        OSError: With the next move.
+    """
+    find_encoder()
+    choose_back_end()
+
+
 def writable(path: Path, suffix: str) -> Path:
     """The path, if a file of this kind can be written there: told before a minute of drawing."""
     if path.suffix.lower() != suffix:
         raise ValueError(f"{path} does not end in {suffix}; choose such a name")
+    if path.is_dir():
+        raise OSError(f"{path} is a folder; choose another name")
     if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
         raise OSError(f"{path} cannot be written: its folder is missing or read-only; choose another")
     return path
