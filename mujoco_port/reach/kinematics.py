@@ -239,8 +239,7 @@ def _refuse_no_number(target: np.ndarray, heading: float, angles: np.ndarray) ->
 
     One sum tells all at once: it is finite only if everything in it is. This is asked at every step.
     """
-    x, y, z = target
-    if isfinite(x + y + z + heading + angles.dot(angles)):
+    if isfinite(target.dot(target) + heading + angles.dot(angles)):
         return
     for name, given, unit in (
         ("target", target, "m"),
