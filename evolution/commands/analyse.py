@@ -91,7 +91,8 @@ class Analyse:
             _compare(results, self.output or Path("comparison"))
         else:
             (only,) = results.values()
-            _write(only, self.output or self.experiments[0] / "results", self.ship)
+            (folder,) = self.experiments
+            _write(only, self.output or folder / "results", self.ship)
         return 0
 
 
