@@ -91,8 +91,7 @@ class Analyse:
             _compare(results, self.output or Path("comparison"))
         else:
             (only,) = results.values()
-            (folder,) = self.experiments
-            _write(only, self.output or folder / "results", self.ship)
+            _write(only, self.output or only.experiment.path / "results", self.ship)
         return 0
 
 
