@@ -12,7 +12,7 @@ from evolution.experiments.cluster import connection
 from evolution.experiments.cluster.address import connected
 from evolution.experiments.cluster.agreement import Order, disagreement, fingerprint
 from evolution.experiments.cluster.running import run_jobs_on
-from evolution.experiments.jobs import Watcher
+from evolution.experiments.jobs import Overseer
 from evolution.experiments.standing import is_held
 from evolution.experiments.workers import Job
 from evolution.runs.folder import LOCK
@@ -57,7 +57,7 @@ def test_a_run_whose_worker_is_killed_goes_on_elsewhere_with_the_same_bits(dask,
             os.kill(killed[0], signal.SIGKILL)
 
     with connected(dask.address, tmp_path) as cluster:
-        assert run_jobs_on(cluster, [[small_job(tmp_path)]], Watcher(on_tick=kill_worker)) == ()
+        assert run_jobs_on(cluster, [[small_job(tmp_path)]], Overseer(on_tick=kill_worker)) == ()
     assert killed[0] in [each.pid for each in dask.processes]
     assert contents(path) == contents(finished_run)
     log = (tmp_path / "log").read_text()
@@ -80,9 +80,9 @@ def test_a_scheduler_that_is_restarted_costs_only_what_was_not_finished(finished
         scheduler = dask.start_scheduler()
         dask.start_worker()
         with connected(dask.address, tmp_path) as cluster:
-            watcher = Watcher(on_tick=restart, on_note=notes.append)
+            overseer = Overseer(on_tick=restart, on_note=notes.append)
             cluster.on_note = notes.append
-            assert run_jobs_on(cluster, [[small_job(tmp_path)]], watcher) == ()
+            assert run_jobs_on(cluster, [[small_job(tmp_path)]], overseer) == ()
     finally:
         dask.close()
     assert restarted
@@ -95,7 +95,7 @@ def test_asked_to_stop_the_jobs_are_left_in_good_order(dask, tmp_path):
         [small_job(tmp_path / name, "--generations=100000")] for name in ("b", "c")
     ]
     with connected(dask.address, tmp_path) as cluster:
-        assert run_jobs_on(cluster, chains, Watcher(wants_stop=lambda: bool(holder_of(path)))) == ()
+        assert run_jobs_on(cluster, chains, Overseer(wants_stop=lambda: bool(holder_of(path)))) == ()
         wait_for(lambda: not any(is_held(each[0].folder) for each in chains))
     assert "go on with the same command" in (tmp_path / "log").read_text()
     assert (path / "checkpoint.npz").exists()
@@ -106,9 +106,9 @@ def test_stages_follow_one_another_and_bad_input_ends_a_chain_with_its_sentence(
     good = small_job(tmp_path / "good", "--generations=5")
     test = Job("small", "testing", ("postevaluate", str(good.folder)), good.folder, good.log)
     begun = []
-    watcher = Watcher(on_tick=lambda jobs: begun.extend(each.stage for each in jobs))
+    overseer = Overseer(on_tick=lambda jobs: begun.extend(each.stage for each in jobs))
     with connected(dask.address, tmp_path) as cluster:
-        (failure,) = run_jobs_on(cluster, [[bad, never], [good, test]], watcher)
+        (failure,) = run_jobs_on(cluster, [[bad, never], [good, test]], overseer)
     assert failure.job == bad
     assert failure.sentence == "setting elites = 99 must lie in [0, 9]"
     assert not never.folder.exists()
