@@ -2,28 +2,36 @@
 
 import os
 import signal
+import sys
 import time
 
 import pytest
 
-from evolution.experiments import workers
+from evolution.child import reference
 from evolution.experiments.jobs import MOST_RESTARTS, Overseer, finished_files, run_jobs
+from evolution.experiments.stages import evolve_run
 from evolution.experiments.workers import Job
-from evolution.runs.folder import LOCK
-from tests.evolution.small_runs import SMALL_FLAGS, contents
+from evolution.runs.lock import last_word
+from tests.evolution.small_runs import SMALL, contents
+
+STAND_IN = """#!{python}
+import json, os, sys
+os.execvp('sh', ['sh', '-c', json.loads(sys.argv[-1])['command']])
+"""
 
 
 @pytest.fixture
 def shell(monkeypatch, tmp_path):
-    """Jobs whose only argument is a shell command: they are started as `<program> -m evolution <command>`."""
+    """Jobs whose only argument is a shell command, carried out by a program in the place of Python."""
     program = tmp_path / "program"
-    program.write_text('#!/bin/sh\nexec sh -c "$3"\n')
+    program.write_text(STAND_IN.format(python=sys.executable))
     program.chmod(0o755)
-    monkeypatch.setattr(workers.sys, "executable", str(program))
+    monkeypatch.setattr(sys, "executable", str(program))
     monkeypatch.chdir(tmp_path)
 
     def job(command, name="one"):
-        return Job(name, "working", (command,), tmp_path / name, tmp_path / "logs" / f"{name}.log")
+        log = tmp_path / "logs" / f"{name}.log"
+        return Job(name, "working", reference(evolve_run), {"command": command}, tmp_path / name, log)
 
     return job
 
@@ -118,12 +126,13 @@ def test_a_run_whose_worker_is_killed_equals_an_undisturbed_one(finished_run, tm
 
     def kill_twice(jobs):
         if jobs and len(list(path.glob("parts/*.npz"))) > len(killed) and len(killed) < 2:
-            holder = int((path / LOCK).read_text() or 0)
+            holder = last_word(path).process
             if holder and holder not in killed:  # else the next worker does not hold the run yet
                 killed.append(holder)
                 os.kill(holder, signal.SIGKILL)
 
-    job = Job("small", "evolving", ("evolve", *SMALL_FLAGS, f"--output={path}"), path, tmp_path / "log")
+    run = {"folder": str(path), "config": SMALL.to_mapping()}
+    job = Job("small", "evolving", reference(evolve_run), run, path, tmp_path / "log")
     assert run_jobs([[job]], at_once=1, overseer=Overseer(on_tick=kill_twice)) == ()
     assert killed
     assert contents(path) == contents(finished_run)
