@@ -8,9 +8,11 @@ from __future__ import annotations
 import csv
 import hashlib
 import multiprocessing
+import os
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import astuple, dataclass, fields
 from importlib.resources import files
 from pathlib import Path
@@ -25,6 +27,7 @@ from models.robots import get_robot
 Loop = Literal["open", "delayed", "geometric", "camera"]
 AREAS: Final = ("right", "left")
 MARK: Final = "# "
+SAFE_PATH: Final = "PYTHONSAFEPATH"
 
 
 @dataclass(frozen=True)
@@ -115,7 +118,8 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
             writer.writerow(field.name for field in fields(Outcome))
         # Spawned, not forked: a forked child would share the parent's state of drawing and linear algebra.
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(processes, context, initializer=_move_in, initargs=(robot,)) as pool:
+        pool = ProcessPoolExecutor(processes, context, initializer=_move_in, initargs=(robot,))
+        with _current_folder_is_no_library(), pool:
             try:
                 for outcome in pool.map(carry_out_job, left):
                     writer.writerow(astuple(outcome))
@@ -128,6 +132,20 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
                 ) from None
             finally:
                 pool.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def _current_folder_is_no_library() -> Iterator[None]:
+    """While open, a Python that is started imports nothing from where it is started."""
+    before = os.environ.get(SAFE_PATH)
+    os.environ[SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[SAFE_PATH]
+        else:
+            os.environ[SAFE_PATH] = before
 
 
 def fingerprint(listed: Sequence[Job], robot: str) -> str:

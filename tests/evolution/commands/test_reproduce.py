@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from arm2d import Condition, Readings
-from evolution.child import calling
+from evolution.child import calling, python
 from evolution.cli import main, parse
 from evolution.experiments.live_table import duration, plain_lines
 from evolution.experiments.plan import Plan
@@ -22,6 +22,7 @@ from evolution.runs.lock import in_use, locked
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.trust.torture import Torture, torture
+from tests.evolution.planted import executed, plant
 
 # Far from the paper, so that no stage takes long.
 FLAGS = ["--runs=1", "--population=10", "--elites=2", "--parents=5", "--generations=230"]
@@ -39,11 +40,12 @@ def results_of(folder):
 
 @pytest.fixture(scope="session")
 def reproduced(tmp_path_factory):
-    """A scaled-down reproduction, finished without disturbance, and what it printed."""
-    folder = tmp_path_factory.mktemp("reproduced") / "small"
-    done = subprocess.run(command(folder), capture_output=True, text=True)
+    """A scaled-down reproduction, started among planted files and left undisturbed, and what it printed."""
+    here = plant(tmp_path_factory.mktemp("reproduced"))
+    start = python("-m", "evolution", "reproduce", *FLAGS, "--output=small")
+    done = subprocess.run(start, capture_output=True, text=True, cwd=here)
     assert done.returncode == 0, done.stdout + done.stderr
-    return folder, done.stdout
+    return here / "small", done.stdout
 
 
 @pytest.mark.slow
@@ -51,7 +53,8 @@ def test_a_scaled_down_paper_ends_with_report_tables_and_times(reproduced):
     folder, output = reproduced
     assert (folder / "report.html").stat().st_size > 100_000
     assert (folder / "results" / "table-ii.csv").exists()
-    assert str(folder / "report.html") in output
+    assert "small/report.html" in output
+    assert executed(folder.parent) == []
     for stage in ("evolving", "testing", "analysing", "tracing ancestors", "observing", "reporting"):
         assert re.search(rf"^  {stage}: \d+ s of CPU in \d processes", output, re.MULTILINE), stage
     assert "\x1b" not in output
