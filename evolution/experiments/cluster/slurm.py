@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import os
+import fcntl
 import re
 import shlex
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, Final
 
 import psutil
@@ -21,6 +22,12 @@ from evolution.experiments.cluster.connection import Connection
 from evolution.experiments.cluster.options import LOOPBACK, SlurmOptions
 from evolution.runs.storage import make_folder
 
+KEY_FILES: Final = (
+    "tls_ca_file",
+    *(f"tls_{who}_{what}" for who in ("client", "scheduler", "worker") for what in ("key", "cert")),
+)
+KEYS: Final = "keys-"  # how the names of folders for keys begin
+IN_USE: Final = "in-use"  # a file in them, locked by the command that made them
 DEATH_TIMEOUT: Final = 300  # [s] a worker looks for a scheduler
 # What sbatch would take for something else in a name of a file, even in quotes.
 NOT_IN_A_NAME: Final = re.compile(r"""["'\\]""")
@@ -80,14 +87,16 @@ def slurm_cluster(options: SlurmOptions, folder: Path) -> Iterator[Connection]:
     job_options = _job_options(options, logs)
     make_folder(logs)
     cluster: Any
-    with SLURMCluster(
-        **job_options,
-        job_cls=QuotedJob,
-        shared_temp_directory=str(logs),
-        security=_own_keys() if options.tls else None,
-        # The scheduler's pages about itself: for this machine only, whatever the interface.
-        scheduler_options={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
-    ) as cluster:
+    with (
+        folder_for_keys(logs) as keys,
+        SLURMCluster(
+            **job_options,
+            job_cls=QuotedJob,  # pyright: ignore - a class is meant
+            security=_own_keys(keys) if options.tls else None,
+            # The scheduler's pages about itself: for this machine only, whatever the interface.
+            scheduler_options={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
+        ) as cluster,
+    ):
         cluster.adapt(minimum_jobs=0, maximum_jobs=options.jobs, interval="10s", wait_count=6)
         with Connection(
             lambda seconds: Client(cluster, timeout=seconds, set_as_default=False),
@@ -98,6 +107,29 @@ def slurm_cluster(options: SlurmOptions, folder: Path) -> Iterator[Connection]:
             yield connection
 
 
+@contextmanager
+def folder_for_keys(logs: Path) -> Iterator[Path]:
+    """While open, a folder that nobody else may look into; those of commands that were killed are removed."""
+    with TemporaryDirectory(prefix=KEYS, dir=logs) as name:
+        keys = Path(name)
+        with (keys / IN_USE).open("w") as mark:
+            fcntl.flock(mark, fcntl.LOCK_EX)
+            for other in logs.glob(f"{KEYS}*/{IN_USE}"):
+                if other.parent != keys and _is_free(other):
+                    shutil.rmtree(other.parent, ignore_errors=True)
+            yield keys
+
+
+def _is_free(mark: Path) -> bool:
+    """Whether the command that locked a file is no more."""
+    try:
+        with mark.open("rb") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+            return True
+    except OSError:
+        return False
+
+
 def _loopback_note(options: SlurmOptions, logs: Path) -> str:
     note = f", and at {logs} for those that ended"
     if options.interface == LOOPBACK:
@@ -105,13 +137,19 @@ def _loopback_note(options: SlurmOptions, logs: Path) -> str:
     return note
 
 
-def _own_keys() -> Security:
+def _own_keys(folder: Path) -> Security:
+    """Keys made for this one time, in files of a folder."""
     try:
-        return Security.temporary()
+        made = Security.temporary()
     except ImportError:
         raise ValueError(
             "keys for TLS need the package cryptography; install it with: pip install 'wordarm[cluster]'"
         ) from None
+    files = {}
+    for name in KEY_FILES:
+        (folder / name).write_text(getattr(made, name), encoding="ascii")
+        files[name] = str(folder / name)
+    return Security(require_encryption=True, **files)
 
 
 def _logs(folder: Path) -> Path:
@@ -148,10 +186,9 @@ def _job_options(options: SlurmOptions, logs: Path) -> dict[str, Any]:
 def _word_for_sbatch(file: Path) -> str:
     """The name of a file as one word of a directive; in its folders a percent sign means itself."""
     name = str(file)
-    # dask-jobqueue puts the values of variables into the name of the folder for keys.
-    if not name.isprintable() or NOT_IN_A_NAME.search(name) or os.path.expandvars(name) != name:
+    if not name.isprintable() or NOT_IN_A_NAME.search(name):
         raise ValueError(
             f"{str(file.parent)!r} cannot be named in a job script; choose an --output without quotes, "
-            "backslashes, names of variables and characters that cannot be printed"
+            "backslashes and characters that cannot be printed"
         )
     return shlex.quote(f"{str(file.parent).replace('%', '%%')}/{file.name}")

@@ -13,7 +13,7 @@ from distributed.security import Security
 from evolution.cli import main, parse
 from evolution.commands import cluster_flags
 from evolution.experiments.cluster.options import SlurmOptions, read_options
-from evolution.experiments.cluster.slurm import QuotedJob, job_script
+from evolution.experiments.cluster.slurm import QuotedJob, folder_for_keys, job_script
 
 DRY = ["reproduce", "--slurm", "--dry-run"]
 
@@ -100,7 +100,7 @@ def test_output_of_the_jobs_goes_into_the_folder_whatever_it_is_called(tmp_path)
     ]
 
 
-@pytest.mark.parametrize("name", ["it's", 'a"b', "back\\slash", "line\nbreak", "$HOME"])
+@pytest.mark.parametrize("name", ["it's", 'a"b', "back\\slash", "line\nbreak"])
 def test_a_folder_that_no_script_can_name_is_refused_before_anything_is_submitted(
     name, tmp_path, monkeypatch, capsys
 ):
@@ -114,6 +114,18 @@ def test_a_folder_that_no_script_can_name_is_refused_before_anything_is_submitte
             assert main(["reproduce", "--slurm", f"--output={path}", *more]) == 2
             assert "cannot be named in a job script" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_keys_that_a_killed_command_left_are_removed_and_those_in_use_are_not(tmp_path):
+    (dead := tmp_path / "keys-dead").mkdir()
+    (dead / "in-use").touch()
+    (dead / "worker.key").write_text("secret")
+    (stranger := tmp_path / "keys-of-the-house").mkdir()
+    with folder_for_keys(tmp_path) as first:
+        assert first.stat().st_mode & 0o777 == 0o700
+        with folder_for_keys(tmp_path) as second:
+            assert sorted(tmp_path.iterdir()) == sorted([first, second, stranger])
+    assert list(tmp_path.iterdir()) == [stranger]
 
 
 def test_flags_go_before_the_file_and_the_file_before_the_defaults(tmp_path):
