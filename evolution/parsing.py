@@ -90,7 +90,7 @@ def nearest(word: str, among: Sequence[str]) -> str | None:
     return next(iter(get_close_matches(word, among, n=1)), None)
 
 
-def _parsed(kind: type[T], arguments: Sequence[str], prog: str, default: T | None) -> T:
+def _parsed(kind: type[T], arguments: Sequence[str], prog: str, default: Any) -> T:
     return tyro.cli(
         kind,
         prog=prog,
