@@ -33,7 +33,9 @@ def test_a_run_at_work_tells_the_first_generation_at_once(tmp_path):
     assert told[1] == Word(os.getpid(), 1, pytest.approx(scored[0].best, abs=1e-6))
 
 
-@pytest.mark.parametrize("content", ["", "x", "4711", "4711\n12\n", "4711\n12 nan\n", "-1\n", "4711\n1 2.000000\nmore\n"])
+@pytest.mark.parametrize(
+    "content", ["", "x", "4711", "4711\n12\n", "4711\n12 nan\n", "-1\n", "4711\n1 2.000000\nmore\n"]
+)
 def test_what_nobody_can_have_said_is_not_believed(content, tmp_path):
     assert last_word(tmp_path) == Word(0, 0, last_word(tmp_path).best)
     (tmp_path / LOCK).write_text(content)
@@ -44,7 +46,8 @@ def test_a_lock_that_is_a_link_is_not_followed(tmp_path):
     (tmp_path / "thesis.txt").write_text("a year's work")
     (tmp_path / "run").mkdir()
     (tmp_path / "run" / LOCK).symlink_to(tmp_path / "thesis.txt")
-    with pytest.raises(OSError, match="is a symbolic link, which is not followed; remove it"), locked(tmp_path / "run"):
+    refusal = "is a symbolic link, which is not followed; remove it"
+    with pytest.raises(OSError, match=refusal), locked(tmp_path / "run"):
         pass
     assert (tmp_path / "thesis.txt").read_text() == "a year's work"
     os.unlink(tmp_path / "run" / LOCK)
