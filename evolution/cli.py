@@ -27,6 +27,7 @@ from evolution.commands.experiment import ExperimentCommand
 from evolution.commands.gallery import Gallery
 from evolution.commands.lineage import LineageCommand
 from evolution.commands.measure import Measure
+from evolution.commands.play import Play
 from evolution.commands.plot import Plot
 from evolution.commands.port import Port
 from evolution.commands.postevaluate import PostEvaluate
@@ -54,6 +55,7 @@ Command = (
     | Gallery
     | LineageCommand
     | Measure
+    | Play
     | Plot
     | Port
     | PostEvaluate
@@ -108,6 +110,7 @@ def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
         | Annotated[Gallery, subcommand("gallery")]
         | Annotated[LineageCommand, subcommand("lineage")]
         | Annotated[Measure, subcommand("measure")]
+        | Annotated[Play, subcommand("play")]
         | Annotated[Plot, subcommand("plot")]
         | Annotated[Port, subcommand("port")]
         | Annotated[PostEvaluate, subcommand("postevaluate")]

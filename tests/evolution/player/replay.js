@@ -1,5 +1,5 @@
 // Appended to the page's own script by test_same_bits.py: reads trials, runs them, writes every step.
-// One row of 34 doubles a step: alpha, beta, turned, bent, three states, bearings and distances of the three
+// One row of 34 doubles for the start and for every step: alpha, beta, turned, bent, three states, bearings and distances of the three
 // discs, their sides, 18 inputs; then one row of outcomes a trial: F1, F2, F3, success, steps.
 
 const fs = require("node:fs");
@@ -21,7 +21,7 @@ function listener(world, { instruction, changes }) {
 }
 
 function rowOf(state) {
-  const { alpha, beta, turned, bent, y, discs, inputs } = state;
+  const { alpha, beta, turned, bent, y, discs, inputs = new Array(18).fill(0) } = state;
   const of = (name) => discs.map((disc) => disc[name]);
   return [alpha, beta, turned, bent, ...y, ...of("bearing"), ...of("distance"), ...of("side"), ...inputs];
 }
@@ -33,6 +33,7 @@ for (const job of jobs) {
   const agent = wordarm.creature(wordarm.decode(job.genotype, job.readings), world);
   const listen = listener(world, job);
   let state = wordarm.begin(agent, job.start, job.instruction);
+  steps.push(rowOf(state));
   while (!state.judged.done) {
     state = wordarm.step(agent, state, listen(state));
     steps.push(rowOf(state));
