@@ -1,10 +1,10 @@
 """Debian's Chromium without a window, driven by the DevTools protocol: real clicks, keys and touches.
 
-    with Browser(folder) as browser:
-        browser.open(page, width=360)
-        browser.click('[data-part="play"]')
-        assert browser.text('[data-part="verdict"]') ...
-        assert not browser.messages
+with Browser(folder) as browser:
+    browser.open(page, width=360)
+    browser.click('[data-part="play"]')
+    assert browser.text('[data-part="verdict"]') ...
+    assert not browser.messages
 """
 
 from __future__ import annotations
@@ -14,10 +14,11 @@ import json
 import shutil
 import subprocess
 import time
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, Final
 
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
 
 CHROMIUM: Final = shutil.which("chromium")
 OPTIONS: Final = (
@@ -49,7 +50,7 @@ class Browser:
     def __init__(self, folder: Path) -> None:
         self.messages: list[str] = []
         self.requests: list[str] = []
-        self._folder, self._sent = folder, 0
+        self._folder, self._sent, self._open = folder, 0, ExitStack()
 
     def __enter__(self) -> Browser:
         assert CHROMIUM is not None, "there is no chromium on this machine"
@@ -59,7 +60,7 @@ class Browser:
             stderr=subprocess.DEVNULL,
         )
         try:
-            self._socket = self._connect()
+            self._socket = self._open.enter_context(connect(self._address(), max_size=None))
             for domain in ("Page", "Runtime", "Log", "Network"):
                 self._do(f"{domain}.enable")
         except BaseException:
@@ -68,7 +69,7 @@ class Browser:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._socket.close()
+        self._open.close()
         self._process.terminate()
         try:
             self._process.wait(10)
@@ -87,14 +88,13 @@ class Browser:
         self._do(
             "Emulation.setEmulatedMedia", features=[{"name": n, "value": v} for n, v in features.items()]
         )
+        self.evaluate("void (window.isOld = true)")
         self._do("Page.navigate", url=page.resolve().as_uri())
-        self.wait_for("document.readyState === 'complete' && location.protocol === 'file:'")
+        self.wait_for("!window.isOld && document.readyState === 'complete'")
 
     def evaluate(self, expression: str) -> Any:
         """The value of a JavaScript expression; a promise is waited for."""
-        answer = self._do(
-            "Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True
-        )
+        answer = self._do("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in answer:
             raise AssertionError(f"{expression}: {answer['exceptionDetails']}")
         return answer["result"].get("value")
@@ -151,14 +151,23 @@ class Browser:
         self._do("Input.dispatchKeyEvent", type="keyDown", key=key, code=key, **text)
         self._do("Input.dispatchKeyEvent", type="keyUp", key=key, code=key)
 
+    def named(self) -> list[tuple[str, str]]:
+        """(role, name) of everything that a screen reader finds on the page."""
+        nodes = self._do("Accessibility.getFullAXTree")["nodes"]
+        return [
+            (each["role"]["value"], each.get("name", {}).get("value", ""))
+            for each in nodes
+            if not each["ignored"]
+        ]
+
     def picture(self, path: Path, *, whole: bool = False) -> Path:
         """Write a PNG of the window, or of the whole page."""
         image = self._do("Page.captureScreenshot", captureBeyondViewport=whole)
         path.write_bytes(base64.b64decode(image["data"]))
         return path
 
-    def _connect(self) -> ClientConnection:
-        """The page's own socket, as soon as Chromium has written down where it listens."""
+    def _address(self) -> str:
+        """Of the page's own socket, as soon as Chromium has written down where it listens."""
         note = self._folder / "DevToolsActivePort"
         end = time.monotonic() + PATIENCE
         while not (note.exists() and len(note.read_text().split()) == 2):
@@ -170,7 +179,7 @@ class Browser:
             browser.send(json.dumps({"id": 1, "method": "Target.getTargets"}))
             targets = json.loads(browser.recv())["result"]["targetInfos"]
         page = next(each["targetId"] for each in targets if each["type"] == "page")
-        return connect(f"ws://127.0.0.1:{port}/devtools/page/{page}", max_size=None)
+        return f"ws://127.0.0.1:{port}/devtools/page/{page}"
 
     def _do(self, method: str, **parameters: Any) -> Any:
         """Call a method of the protocol, taking note of what happens meanwhile."""

@@ -1,4 +1,4 @@
-"""What the page is told of an agent: plain values, genes as the shortest decimals that give their bits back."""
+"""What the page is told of an agent: plain values, genes as the shortest decimals that keep their bits."""
 
 from __future__ import annotations
 

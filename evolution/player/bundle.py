@@ -2,7 +2,7 @@
 
 Every module becomes a function that is called once, so that names private to it stay so:
 
-    const camera_js = (() => { const { bearing } = arithmetic_js; ...; return { look, inView }; })();
+    const world_camera_js = (() => { const { bearing } = world_arithmetic_js; ...; return { look }; })();
 
 Only this form is understood: `import { a, b } from "./module.js";` and `export` before a declaration.
 """
@@ -11,10 +11,11 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from posixpath import dirname, join, normpath
 from typing import Final
 
 SOURCES: Final = Path(__file__).with_name("src")
-IMPORT: Final = re.compile(r'^import (\{[^}]*\}) from "\./(\w+)\.js";\n', re.MULTILINE)
+IMPORT: Final = re.compile(r'^import (\{[^}]*\}) from "(\.[\w./]+)\.js";\n', re.MULTILINE)
 EXPORT: Final = re.compile(r"^export (?=(?:const|function\*?|class) (\w+))", re.MULTILINE)
 LEFT_OVER: Final = re.compile(r"^(?:import|export)\b.*", re.MULTILINE)
 
@@ -28,27 +29,41 @@ def bundle(entry: str, folder: Path = SOURCES) -> str:
     """
     texts: dict[str, str] = {}
     _collect(entry, folder, texts, ())
-    exports = ", ".join(f"...{name}_js" for name in texts)
-    body = "\n".join(_wrapped(name, text) for name, text in texts.items())
+    exports = ", ".join(f"...{_variable(module)}" for module in texts)
+    body = "\n".join(_wrapped(module, text) for module, text in texts.items())
     return f'"use strict";\nconst wordarm = (() => {{\n{body}\nreturn {{ {exports} }};\n}})();\n'
 
 
-def _collect(name: str, folder: Path, texts: dict[str, str], path: tuple[str, ...]) -> None:
-    """Add a module to `texts` after all that it imports."""
-    if name in path:
-        raise ValueError(f"modules import one another in a circle: {' > '.join([*path, name])}")
-    if name in texts:
+def _collect(module: str, folder: Path, texts: dict[str, str], path: tuple[str, ...]) -> None:
+    """Add a module, named by its path without .js, to `texts` after all that it imports."""
+    if module in path:
+        raise ValueError(f"modules import one another in a circle: {' > '.join([*path, module])}")
+    if module in texts:
         return
-    text = (folder / f"{name}.js").read_text(encoding="utf-8")
+    text = (folder / f"{module}.js").read_text(encoding="utf-8")
     for _, needed in IMPORT.findall(text):
-        _collect(needed, folder, texts, (*path, name))
-    texts[name] = text
+        _collect(_resolved(needed, module), folder, texts, (*path, module))
+    texts[module] = text
 
 
-def _wrapped(name: str, text: str) -> str:
+def _resolved(needed: str, module: str) -> str:
+    """What a module's relative import names."""
+    return normpath(join(dirname(module), needed))
+
+
+def _variable(module: str) -> str:
+    """The constant that holds a module's exports."""
+    return module.replace("/", "_") + "_js"
+
+
+def _wrapped(module: str, text: str) -> str:
     """A module as a function called once."""
     names = ", ".join(EXPORT.findall(text))
-    text = EXPORT.sub("", IMPORT.sub(r"const \1 = \2_js;\n", text))
+    text = IMPORT.sub(lambda match: f"const {match[1]} = {_variable(_resolved(match[2], module))};\n", text)
+    text = EXPORT.sub("", text)
     if strange := LEFT_OVER.search(text):
-        raise ValueError(f'{name}.js has {strange[0]!r}; write import {{ a }} from "./module.js" or export const a')
-    return f"// {name}.js\nconst {name}_js = (() => {{\n{text.strip()}\nreturn {{ {names} }};\n}})();\n"
+        raise ValueError(
+            f'{module}.js: write import {{ a }} from "./module.js" or export const a, not {strange[0]!r}'
+        )
+    head = f"// {module}.js\nconst {_variable(module)} = (() => {{\n"
+    return f"{head}{text.strip()}\nreturn {{ {names} }};\n}})();\n"

@@ -1,7 +1,7 @@
 // Where the script begins: in the page it starts the players, in a worker it counts.
 
-import { makePlayer } from "./player.js";
-import { answerOrders } from "./worker.js";
+import { makePlayer } from "./view/player.js";
+import { answerOrders } from "./view/worker.js";
 
 const SCRIPT = "wordarm-script";
 let players = 0;

@@ -78,7 +78,9 @@ def test_page_counts_agree_with_ours_within_sampling(found, sources):
         ours = np.array(agent_for_page(source)["successes"])
         share = (ours + np.array(counts) + 1) / 162
         spread = np.sqrt(2 * 80 * share * (1 - share))
-        assert (np.abs(ours - counts) < 4 * spread + 1).all()  # 27 differences, each with four standard errors
+        assert (
+            np.abs(ours - counts) < 4 * spread + 1
+        ).all()  # 27 differences, each with four standard errors
 
 
 def test_starts_are_uniform_in_their_areas_and_on_their_chords(found, sources):
@@ -141,13 +143,56 @@ def test_modules_in_a_circle_are_refused(tmp_path):
 
 def test_imports_of_another_form_are_refused(tmp_path):
     (tmp_path / "a.js").write_text('import * as b from "./b.js";\n')
-    with pytest.raises(ValueError, match=r'write import \{ a \} from "\./module\.js" or export const a'):
+    with pytest.raises(
+        ValueError,
+        match=r"""a\.js: write import \{ a \} from "\./module\.js" or export const a, not \'import \*""",
+    ):
         bundle("a", tmp_path)
 
 
 def test_names_private_to_a_module_do_not_meet(tmp_path):
-    (tmp_path / "a.js").write_text('import { two } from "./b.js";\nconst own = 1;\nexport const sum = own + two;\n')
+    (tmp_path / "a.js").write_text(
+        'import { two } from "./b.js";\nconst own = 1;\nexport const sum = own + two;\n'
+    )
     (tmp_path / "b.js").write_text("const own = 2;\nexport const two = own;\n")
     script = bundle("a", tmp_path) + "console.log(wordarm.sum);\n"
     done = subprocess.run([NODE, "-e", script], check=True, capture_output=True, text=True)
     assert done.stdout == "3\n"
+
+
+# Machado, Oliveira and Fernandes (2009), severity 1, in linear RGB.
+COLOUR_BLINDNESS = {
+    "none": np.eye(3),
+    "protanopia": np.array(
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]
+    ),
+    "deuteranopia": np.array(
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]
+    ),
+    "tritanopia": np.array(
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]
+    ),
+}
+RGB_TO_XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+
+
+def lab(colour, blindness):
+    """A colour such as #1d56a8 in CIELAB, as seen with a kind of colour blindness."""
+    channels = np.array([int(colour[at : at + 2], 16) for at in (1, 3, 5)]) / 255
+    linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+    seen = np.clip(COLOUR_BLINDNESS[blindness] @ linear, 0, 1)
+    x, y, z = np.cbrt(RGB_TO_XYZ @ seen / (0.9505, 1.0, 1.089))
+    return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
+
+@pytest.mark.parametrize("blindness", COLOUR_BLINDNESS)
+def test_objects_are_told_apart_with_any_colour_blindness(blindness):
+    style = (ROOT / "evolution" / "player" / "player.css").read_text(encoding="utf-8")
+    themes = zip(
+        *(re.findall(rf"--wa-{name}: (#\w+);", style) for name in ("blue", "green", "red")), strict=True
+    )
+    for theme, colours in zip(("light", "dark"), themes, strict=True):
+        blue, green, red = (lab(each, blindness) for each in colours)
+        for one, other in ((blue, green), (green, red), (blue, red)):
+            # A difference of 2.3 can just be seen side by side.
+            assert np.linalg.norm(one - other) > 25, theme

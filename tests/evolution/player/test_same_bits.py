@@ -26,13 +26,19 @@ def draw(alternative, evolved):
         n = PER_ALTERNATIVE // 2 + (condition is Condition.WITH_INDICATE) * (PER_ALTERNATIVE % 2)
         drawn = draw_trials(condition.instructions, 3, readings, rng)[rng.permutation(54)[:n]]
         changes = LabelChanges(
-            rng.permutation(drawn.actions), drawn.objects, drawn.actions, rng.integers(0, 3, n), rng.integers(0, 10, n)
+            rng.permutation(drawn.actions),
+            drawn.objects,
+            drawn.actions,
+            rng.integers(0, 3, n),
+            rng.integers(0, 10, n),
         )
         changing = Trials(drawn.actions, drawn.objects, drawn.alpha, drawn.discs, changes)
         for t in range(n):
-            yield genotypes[t if condition is Condition.WITH_INDICATE else -1 - t], (
-                changing if t % 3 == 0 else drawn
-            )[t], readings
+            yield (
+                genotypes[t if condition is Condition.WITH_INDICATE else -1 - t],
+                (changing if t % 3 == 0 else drawn)[t],
+                readings,
+            )
 
 
 def job(genotype, trial, readings):

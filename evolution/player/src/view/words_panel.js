@@ -1,7 +1,7 @@
 // The words to choose from, lit while the agent hears them.
 
 import { html, set } from "./svg.js";
-import { ACTIONS, OBJECTS, actionsOf } from "./words.js";
+import { ACTIONS, OBJECTS, actionsOf } from "../world/words.js";
 
 let groups = 0;
 

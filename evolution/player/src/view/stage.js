@@ -1,10 +1,10 @@
 // The table from above: arm, camera light, objects. Drawn once, then moved.
 
-import { RIGHT, LEFT, NONE } from "./contact.js";
+import { RIGHT, LEFT, NONE } from "../world/contact.js";
 import { arc, fixed, joints, limb, polar, slice } from "./geometry.js";
 import { set, svg, write } from "./svg.js";
-import { ACTIONS, OBJECTS } from "./words.js";
-import { ALPHA_MAX, ALPHA_MIN, MIDDLE_SECTOR_HALF_WIDTH, S1_LENGTH, VIEW_HALF_WIDTH } from "./world.js";
+import { ACTIONS, OBJECTS } from "../world/words.js";
+import { ALPHA_MAX, ALPHA_MIN, MIDDLE_SECTOR_HALF_WIDTH, S1_LENGTH, VIEW_HALF_WIDTH } from "../world/world.js";
 
 // What the picture shows [cm]; x, y downwards, width, height.
 const VIEW = [-178, -176, 356, 274];
@@ -145,10 +145,18 @@ function makeDisc(root, name, radius, onMove) {
       group.classList.toggle("wa-touched", sides[k] !== NONE);
       group.classList.toggle("wa-done", isTarget && kind === "yes");
       set(ring, { "stroke-dasharray": `${isTarget ? progress.toFixed(3) : 0} 1` });
-      const [x, y] = polar(bearing, 1);
-      set(label, { x: (x * (radius + 17)).toFixed(2), y: (y * (radius + 11)).toFixed(2) });
+      const [x, y] = labelPlace(at, bearing, radius, VIEW[2] / (root.clientWidth || VIEW[2]));
+      set(label, { x: x.toFixed(2), y: y.toFixed(2) });
     },
   };
+}
+
+/** Where an object's name stands, from its centre: outside, and within the picture; `pixel` in cm. */
+function labelPlace([x], bearing, radius, pixel) {
+  const [outX, outY] = polar(bearing, 1);
+  const edge = VIEW[2] / 2 - 22 * pixel;
+  const across = outX * (radius + 4 + 18 * pixel);
+  return [Math.min(edge, Math.max(-edge, x + across)) - x, outY * (radius + 5 + 7 * pixel)];
 }
 
 /** Let a pointer drag `group` about. */

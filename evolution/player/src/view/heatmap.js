@@ -1,8 +1,8 @@
 // Nine instructions as a map of three by three, painted as counts come in.
 
-import { PER_AREA } from "./census.js";
+import { PER_AREA } from "../world/census.js";
 import { html, set, write } from "./svg.js";
-import { ACTIONS, OBJECTS, actionsOf, neverMet, spoken } from "./words.js";
+import { ACTIONS, OBJECTS, actionsOf, neverMet, spoken } from "../world/words.js";
 
 export const TRIALS = 2 * PER_AREA;
 

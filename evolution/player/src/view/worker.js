@@ -1,6 +1,6 @@
 // Counting successes beside the page, so that the arm goes on moving meanwhile.
 
-import { census } from "./census.js";
+import { census } from "../world/census.js";
 
 /** In the worker: answer an order with one message for every instruction, and then `null`. */
 export function answerOrders(scope) {

@@ -1,18 +1,18 @@
 // The player: the reader's hand on a session, and a session shown.
 
-import { look } from "./camera.js";
+import { look } from "../world/camera.js";
 import { makeClock } from "./clock.js";
 import { makeCensus } from "./counting.js";
 import { between, joints } from "./geometry.js";
 import { makeMind, makeMotors, makeSenses } from "./panels.js";
 import { advanced, last, moved, muted, open, rewound, told, translated } from "./session.js";
 import { keepLetters, makeStage } from "./stage.js";
-import { drawStart, generator } from "./starts.js";
+import { drawStart, generator } from "../world/starts.js";
 import { set, write } from "./svg.js";
-import { sense } from "./trial.js";
+import { sense } from "../world/trial.js";
 import { meaning, progress, verdict } from "./verdict.js";
 import { makeWords } from "./words_panel.js";
-import { DT, MAX_STEPS } from "./world.js";
+import { DT, MAX_STEPS } from "../world/world.js";
 
 // How many past places of the forearm's end are shown.
 const TRAIL = 30;
@@ -119,8 +119,7 @@ function play(player) {
 }
 
 function pause(player) {
-  player.clock.stop();
-  show(player);
+  goTo(player, Math.ceil(player.place));
 }
 
 /** Whether the trial is over and seen to its end. */

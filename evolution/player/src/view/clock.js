@@ -1,6 +1,6 @@
 // Playing: a place in the trial that moves on with the time.
 
-import { DT } from "./world.js";
+import { DT } from "../world/world.js";
 
 /**
  * A clock that calls `onTick(steps)` with the control steps, whole and part, that have passed since.
@@ -11,7 +11,8 @@ export function makeClock(speed, onTick) {
   let before = null;
   const tick = (now) => {
     if (before === null) return;
-    const passed = Math.min(0.25, (now - before) / 1000); // a page that was hidden does not catch up
+    // A frame may have begun before the click that it answers; a page that was hidden does not catch up.
+    const passed = Math.min(0.25, Math.max(0, (now - before) / 1000));
     before = now;
     onTick((passed * speed()) / DT);
     if (before !== null) requestAnimationFrame(tick);

@@ -1,7 +1,7 @@
 // The map of successes, counted in a worker when the reader asks for it.
 
 import { makeMap, TRIALS } from "./heatmap.js";
-import { instructionsOf, neverMet, spoken } from "./words.js";
+import { instructionsOf, neverMet, spoken } from "../world/words.js";
 import { set, write } from "./svg.js";
 import { count } from "./worker.js";
 

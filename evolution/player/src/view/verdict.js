@@ -1,10 +1,10 @@
 // What is said of a trial, in words.
 
-import { inView } from "./camera.js";
-import { NONE } from "./contact.js";
-import { IGNORE, INDICATE, MOVE, TOUCH, goal, scores, share } from "./judge.js";
-import { OBJECTS, neverMet, spoken } from "./words.js";
-import { DT, GOOD_STEPS_FOR_SUCCESS } from "./world.js";
+import { inView } from "../world/camera.js";
+import { NONE } from "../world/contact.js";
+import { IGNORE, INDICATE, MOVE, TOUCH, goal, scores, share } from "../world/judge.js";
+import { OBJECTS, neverMet, spoken } from "../world/words.js";
+import { DT, GOOD_STEPS_FOR_SUCCESS } from "../world/world.js";
 
 const HOLD = `${GOOD_STEPS_FOR_SUCCESS * DT} seconds`;
 

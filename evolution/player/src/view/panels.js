@@ -1,9 +1,9 @@
 // What goes on inside: 18 senses, three neurons, four motors.
 
-import { sigmoid } from "./arithmetic.js";
+import { sigmoid } from "../world/arithmetic.js";
 import { html, set, svg, write } from "./svg.js";
-import { OBJECTS } from "./words.js";
-import { DT, MAX_STEPS } from "./world.js";
+import { OBJECTS } from "../world/words.js";
+import { DT, MAX_STEPS } from "../world/world.js";
 
 const SECTORS = ["right", "middle", "left"];
 

@@ -1,12 +1,12 @@
 // What the reader does with an agent: a trial that can be stepped, rewound and changed at any moment.
 // A change drops the states that lay ahead; the trial goes on from the one it was made in.
 
-import { placeAt } from "./contact.js";
-import { judgement } from "./judge.js";
-import { INTACT, decode, outputs } from "./network.js";
-import { begin, creature, step } from "./trial.js";
-import { actionsOf } from "./words.js";
-import { worldOf } from "./world.js";
+import { placeAt } from "../world/contact.js";
+import { judgement } from "../world/judge.js";
+import { INTACT, decode, outputs } from "../world/network.js";
+import { begin, creature, step } from "../world/trial.js";
+import { actionsOf } from "../world/words.js";
+import { worldOf } from "../world/world.js";
 
 /** A session with an agent { condition, readings, genotype }, about to obey `instruction` from `start`. */
 export function open(agent, start, instruction, silenced = INTACT) {

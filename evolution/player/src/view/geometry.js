@@ -1,7 +1,7 @@
 // Where things stand in the picture. Here any sine will do: nothing below decides an outcome.
 // World: cm, y ahead of the agent. Picture: the same, y downwards.
 
-import { S1_LENGTH, S2_LENGTH } from "./world.js";
+import { S1_LENGTH, S2_LENGTH } from "../world/world.js";
 
 const DEGREE = Math.PI / 180;
 
