@@ -155,8 +155,8 @@ function makeDisc(root, name, radius, onMove) {
 function labelPlace([x], bearing, radius, pixel) {
   const [outX, outY] = polar(bearing, 1);
   const edge = VIEW[2] / 2 - 22 * pixel;
-  const across = outX * (radius + 4 + 18 * pixel);
-  return [Math.min(edge, Math.max(-edge, x + across)) - x, outY * (radius + 5 + 7 * pixel)];
+  const across = outX * (radius + 9 + 18 * pixel);
+  return [Math.min(edge, Math.max(-edge, x + across)) - x, outY * (radius + 8 + 7 * pixel)];
 }
 
 /** Let a pointer drag `group` about. */
