@@ -104,7 +104,7 @@ def test_start_agent_word_and_neuron_are_chosen(browser):
     assert browser.text('[data-part="actions"] .wa-pills') == "MOVETOUCHIGNORE"
     browser.click('[data-part="mute-object"]')
     browser.click(".wa-trace:nth-of-type(2) .wa-mute")
-    assert "Silenced meanwhile: the object word, neuron 2." in browser.text('[data-part="census-lead"]')
+    assert "Silenced in yours: the object word, neuron 2." in browser.text('[data-part="census-lead"]')
     to_the_end(browser)
     flat = "new Set(document.querySelectorAll('.wa-curve')[1].getAttribute('d').match(/ [\\d.]+/g)).size"
     assert browser.evaluate(flat) == 1

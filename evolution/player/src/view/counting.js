@@ -8,19 +8,19 @@ import { count } from "./worker.js";
 /** The counting part of a player; `onChoose(instruction)` is called where a cell of the map is chosen. */
 export function makeCensus(player, script, onChoose) {
   const { find } = player;
-  const census = { counts: [], map: null, seed: 0, order: 0 };
+  const census = { counts: null, map: null, seed: 0, order: 0 };
   const paint = () => census.map.show(census.counts, player.session.agent.successes);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", paint);
   find("count").addEventListener("click", () => run(player, census, script, paint));
   return {
     /** Nothing is counted yet, of this agent with what of it is silenced. */
     forget() {
-      census.counts = [];
+      census.counts = null;
       census.order += 1;
       find("count").disabled = false;
       const { agent, silenced } = player.session;
       census.map = makeMap(find("map"), agent.condition, onChoose);
-      write(find("census-lead"), leadOf(agent, silenced));
+      write(find("census-lead"), leadOf(silenced, false));
       write(find("tally"), "");
       paint();
     },
@@ -38,6 +38,7 @@ async function run(player, census, script, paint) {
   census.seed += 1;
   find("count").disabled = true;
   set(find("map"), { "aria-busy": true });
+  write(find("census-lead"), leadOf(silenced, true));
   write(find("tally"), "Counting …");
   paint();
   const { genotype, readings, condition } = agent;
@@ -55,12 +56,12 @@ async function run(player, census, script, paint) {
   if (order === census.order) find("count").disabled = false;
 }
 
-function leadOf({ successes }, { action, object, neurons }) {
+function leadOf({ action, object, neurons }, counted) {
   const mute = [action && "the action word", object && "the object word", ...neurons.map((each, k) => each && `neuron ${k + 1}`)];
   const names = mute.filter(Boolean);
-  const silenced = names.length ? ` Silenced meanwhile: ${names.join(", ")}.` : "";
-  const ours = successes ? " Beside each count stands ours, from other starts." : "";
-  return `Forty starts from the right, forty from the left, objects anywhere on their lines.${ours}${silenced}`;
+  const silenced = names.length ? ` Silenced in yours: ${names.join(", ")}.` : "";
+  const whose = counted ? "Yours stand large, ours below, from other starts." : "These are our counts.";
+  return `Forty starts from the right, forty from the left, objects anywhere on their lines. ${whose}${silenced}`;
 }
 
 function tally(condition, counts, milliseconds) {

@@ -20,8 +20,8 @@ export function makeMap(table, condition, onChoose) {
     return [0, 1, 2].map((object) => makeCell(html(row, "td"), { action, object }, onChoose));
   });
   return {
-    /** Paint the counts so far, and the counts we had beside them. */
-    show: (counts, ours) => cells.forEach((cell, k) => cell.show(counts[k], ours?.[k])),
+    /** Paint the reader's counts so far, beside the ones we had; or ours alone, where nothing was counted. */
+    show: (counts, ours) => cells.forEach((cell, k) => cell.show(counts ? counts[k] : ours[k], counts && ours[k])),
     /** Frame the instruction that is being carried out. */
     mark: (instruction) => cells.forEach((cell) => cell.mark(instruction)),
   };
@@ -29,16 +29,16 @@ export function makeMap(table, condition, onChoose) {
 
 function makeCell(parent, instruction, onChoose) {
   const button = html(parent, "button", { type: "button", class: neverMet(instruction) ? "wa-never" : "" });
-  const [count, beside] = [html(button, "b"), html(button, "small")];
+  const [count, small] = [html(button, "b"), html(button, "small")];
   button.addEventListener("click", () => onChoose(instruction));
   return {
-    show(successes, ours) {
+    show(successes, beside) {
       const known = successes !== undefined;
       write(count, known ? String(successes) : "·");
-      write(beside, ours === undefined ? "" : `ours: ${ours}`);
+      write(small, beside === null ? `of ${TRIALS}` : `ours: ${beside}`);
       const never = neverMet(instruction) ? ", never practised" : "";
-      const said = known ? `${successes} of ${TRIALS}` : "not tried yet";
-      const besides = ours === undefined ? "" : `, ours ${ours} of ${TRIALS}`;
+      const said = known ? `${successes} of ${TRIALS}` : "being counted";
+      const besides = beside === null ? "" : `, ours ${beside} of ${TRIALS}`;
       set(button, { "aria-label": `${spoken(instruction)}${never}: ${said}${besides}` });
       paint(button, known ? successes / TRIALS : null);
     },
