@@ -18,9 +18,14 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, Final
 
+import pytest
 from websockets.sync.client import connect
 
 CHROMIUM: Final = shutil.which("chromium")
+NEEDS_BROWSER: Final = pytest.mark.skipif(
+    CHROMIUM is None,
+    reason="a browser is needed to try the page in; as root on Debian: apt-get install chromium",
+)
 OPTIONS: Final = (
     "--headless",
     "--no-sandbox",
@@ -32,6 +37,7 @@ OPTIONS: Final = (
     "--disable-sync",
     "--remote-debugging-port=0",
 )
+CONTRAST: Final = Path(__file__).with_name("contrast.js").read_text(encoding="utf-8")
 # Much more than anything here takes; a busy machine is no fault.
 PATIENCE: Final = 60.0
 
@@ -150,6 +156,10 @@ class Browser:
         text = {"text": key} if len(key) == 1 else {}
         self._do("Input.dispatchKeyEvent", type="keyDown", key=key, code=key, **text)
         self._do("Input.dispatchKeyEvent", type="keyUp", key=key, code=key)
+
+    def faint_texts(self) -> list[str]:
+        """Texts of a page of ours whose contrast is below 4.5, with what it is."""
+        return self.evaluate(CONTRAST)
 
     def named(self) -> list[tuple[str, str]]:
         """(role, name) of everything that a screen reader finds on the page."""

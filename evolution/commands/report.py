@@ -10,7 +10,7 @@ from tyro.conf import Positional
 
 @dataclass(frozen=True)
 class Report:
-    """Write one self-contained HTML page: the result, published numbers beside ours, figures, recordings."""
+    """Write one self-contained HTML page: result, best agents alive, published numbers and ours, figures."""
 
     experiment: Positional[Path]
     """Folder of an experiment, or of one run; what is missing is named on the page."""

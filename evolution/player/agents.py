@@ -25,14 +25,19 @@ INTRODUCTIONS: Final = {
 
 
 def agent_for_page(source: Source) -> dict[str, Any]:
-    """Name, note, condition, readings, genotype [84] and successes of 80 in each of its nine instructions."""
+    """An agent with its introduction, tested as `wordarm evaluate` does."""
     name, note = INTRODUCTIONS.get(source.name, (source.name.replace("-", " ").capitalize(), source.origin))
     tested = evaluate(source.genotype, source.condition, source.readings)
+    return described(source, name, note, tested.successes[0].sum(axis=-1).tolist())
+
+
+def described(source: Source, name: str, note: str, successes: list[int]) -> dict[str, Any]:
+    """An agent under a name, with a note, and how many of 80 tries of each instruction it carried out."""
     return {
         "name": name,
         "note": note,
         "condition": str(source.condition),
         "readings": source.readings.to_mapping(),
         "genotype": source.genotype.tolist(),
-        "successes": tested.successes[0].sum(axis=-1).tolist(),
+        "successes": successes,
     }
