@@ -147,9 +147,15 @@ class Browser:
 
     def tap(self, selector: str) -> None:
         """Touch the middle of an element with a finger."""
-        x, y = self.place(selector)
-        self._do("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x, "y": y}])
-        self._do("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+        place = self.place(selector)
+        self.swipe(place, place)
+
+    def swipe(self, start: tuple[float, float], end: tuple[float, float]) -> None:
+        """Put a finger on one place of the window and lift it at another [px]."""
+        for kind, points in (("touchStart", [start]), ("touchMove", [end]), ("touchEnd", [])):
+            if kind != "touchMove" or start != end:
+                touched = [{"x": x, "y": y} for x, y in points]
+                self._do("Input.dispatchTouchEvent", type=kind, touchPoints=touched)
 
     def press(self, key: str) -> None:
         """Press a key, by its name in `KeyboardEvent.key`."""

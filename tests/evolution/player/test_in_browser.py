@@ -91,6 +91,15 @@ def test_objects_are_dragged_and_moved_by_keys(browser):
     assert seconds(browser) == 0
 
 
+def test_finger_drags_an_object_on_a_phone(browser):
+    browser.open(PAGE, width=360)
+    place = "document.querySelector('.wa-disc.wa-green').getAttribute('aria-valuenow')"
+    before = float(browser.evaluate(place))
+    x, y = browser.place(".wa-disc.wa-green .wa-body")
+    browser.swipe((x, y), (x + 40, y + 10))
+    assert float(browser.evaluate(place)) < before - 10
+
+
 def test_start_agent_word_and_neuron_are_chosen(browser):
     browser.evaluate("document.querySelector('[data-part=start]').focus()")
     browser.press("Home")
