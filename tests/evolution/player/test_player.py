@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, Trials, run_trials
-from evolution.cli import main
-from evolution.commands.play import SHIPPED
+from evolution.player.__main__ import SHIPPED, main
 from evolution.player.agents import agent_for_page
 from evolution.player.bundle import bundle
 from evolution.player.page import as_json, render_page
@@ -111,7 +110,7 @@ def test_page_is_small_whole_and_free_of_jargon(sources):
 
 
 def test_command_writes_the_page_of_any_agent(tmp_path, capsys):
-    assert main(["play", "best-specialist", "--output", str(tmp_path / "a" / "page.html")]) == 0
+    assert main(["best-specialist", "--output", str(tmp_path / "a" / "page.html")]) == 0
     assert capsys.readouterr().out == f"{tmp_path / 'a' / 'page.html'}\n"
     text = (tmp_path / "a" / "page.html").read_text(encoding="utf-8")
     assert "The specialist" in text
@@ -119,7 +118,7 @@ def test_command_writes_the_page_of_any_agent(tmp_path, capsys):
 
 
 def test_command_refuses_an_agent_that_does_not_exist(capsys):
-    assert main(["play", "nobody"]) == 2
+    assert main(["nobody"]) == 2
     assert "there is no 'nobody'" in capsys.readouterr().err
 
 

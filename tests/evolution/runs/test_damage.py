@@ -37,7 +37,7 @@ def test_a_damaged_part_is_named_with_the_command_that_repairs(run_copy, part, d
     damage(run_copy / "parts" / part)
     first, last = int(part[4:10]), int(part[11:17])
     sentence = (
-        rf"{part} is damaged .*; recompute generations {first} to {last} with: wordarm repair {run_copy}"
+        rf"{part} is damaged .*; recompute generations {first} to {last} with: wordarm verify {run_copy} --repair"
     )
     with pytest.raises(DamagedFileError, match=sentence):
         evolve(run_copy, SMALL)
