@@ -18,6 +18,8 @@ from functools import cache
 from pathlib import Path
 from typing import Final
 
+from arm2d.sources import sources_digest
+
 SEAL: Final = hashlib.sha256
 N_SEAL: Final = SEAL().digest_size
 # What is written to see whether there is room, in bytes: an index of Numba's is smaller.
@@ -114,7 +116,9 @@ def _own_folder(base: Path) -> Path:
     Raises:
         OSError: If it cannot be used, with the reason.
     """
-    folder = base / f"kernel-{_sources_digest()}"
+    # Numba looks only at a function's own file when it decides whether compiled code is still valid, and
+    # would miss a change in a function called from another file.
+    folder = base / f"kernel-{sources_digest('arm2d')}"
     _told(lambda: base.parent.mkdir(parents=True, exist_ok=True), base)
     for above in base.parents:
         if _is_open_to_others(above.stat()):
@@ -171,15 +175,3 @@ def _try_to_write(folder: Path) -> None:
     """Write and remove a file: a right to write is not yet room."""
     with tempfile.TemporaryFile(dir=folder) as file:
         file.write(PROBE)
-
-
-def _sources_digest() -> str:
-    """Changes with any source file of this package.
-
-    Numba looks only at a function's own file when it decides whether cached machine code is still valid,
-    and would miss a change in a function called from another file.
-    """
-    digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.rglob("*.py")):
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:12]

@@ -35,8 +35,9 @@ class Port(AgentCommand):
     """Which humanoid; an unknown name lists those there are."""
 
     output: Path | None = None
-    """The video; for all, its last picture lies beside it. By default `videos/<agent>-<instruction>.mp4` in
-    the run folder, or in the current one."""
+    """The video; for all, its last picture lies beside it. A file of that name is replaced once the new one
+    is complete. By default `videos/<agent>-<instruction>.mp4` in the run folder or the current one; the name
+    also tells start area, seed, robot and physics where they are not the default."""
 
     physics: bool = False
     """Let the robot act: motors, free objects, contacts; prints what became of it in 2D and 3D."""
@@ -77,7 +78,7 @@ class Port(AgentCommand):
         from mujoco_port.film.port import port_trial
 
         record = self._record(source, instruction)
-        output = self._place(source, f"{instruction.action.name}-{instruction.object.name}".lower())
+        output = self._place(source, str(instruction))
         if not self.acts:
             port_trial(record, output, robot=self.robot)
         else:
@@ -99,8 +100,7 @@ class Port(AgentCommand):
         from mujoco_port.film.port import port_gallery
 
         records = [self._record(source, instruction) for instruction in source.condition.instructions]
-        kind = f"-{self.closed_loop}" if self.closed_loop else "-physics" if self.physics else ""
-        output = self._place(source, f"gallery{kind}")
+        output = self._place(source, "gallery")
         carried_out = sum(record.success for record in records)
         title = f"{source.name}: nine instructions, two of them never met; {carried_out} carried out"
         if not self.acts:
@@ -130,12 +130,24 @@ class Port(AgentCommand):
     def _place(self, source: Source, what: str) -> Path:
         """Where the video goes, its folder made; the robot is refused first if it cannot act."""
         from evolution.runs.storage import make_folder
+        from mujoco_port.film.names import film_name
         from mujoco_port.film.physical_port import check_acts
+        from mujoco_port.film.port import check_films
 
         home = Path() if source.folder is None else source.folder.path
-        output = self.output or home / "videos" / f"{source.name}-{what}.mp4"
+        name = film_name(
+            source.name,
+            what,
+            start_area=self.start_area,
+            trial_seed=self.trial_seed,
+            robot=self.robot,
+            physics=self.acts,
+            closed_loop=self.closed_loop,
+        )
+        output = self.output or home / "videos" / name
         if self.video:
             if self.acts:
                 check_acts(self.robot)
+            check_films()
             make_folder(output.parent)
         return output

@@ -47,7 +47,9 @@ def make_folder(path: Path) -> None:
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise OSError(f"{path} cannot be made: {_obstacle(path) or error.strerror}; choose another folder") from None
+        raise OSError(
+            f"{path} cannot be made: {_obstacle(path) or error.strerror}; choose another folder"
+        ) from None
 
 
 def _obstacle(path: Path) -> str | None:

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import astuple, dataclass, fields
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, Final, Literal
 
@@ -20,11 +19,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
+from arm2d.records import brief
+from arm2d.sources import sources_digest
 from models.robots import get_robot
 
 Loop = Literal["open", "delayed", "geometric", "camera"]
 AREAS: Final = ("right", "left")
 MARK: Final = "# "
+# Whose code decides what becomes of a trial in either world.
+PACKAGES: Final = ("arm2d", "models", "mujoco_port")
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,8 @@ class Agent:
     genotype: NDArray[np.float64]
     instructions: tuple[Instruction, ...]
     readings: Readings
+
+    __repr__ = brief
 
 
 @dataclass(frozen=True)
@@ -132,13 +137,9 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
 
 def fingerprint(listed: Sequence[Job], robot: str) -> str:
     """What determines the outcomes: sources, robot, genotypes and starts."""
-    digest = hashlib.sha256(robot.encode())
-    for package in ("arm2d", "models", "mujoco_port"):
-        for source in sorted(files(package).iterdir(), key=lambda each: each.name):
-            if source.name.endswith((".py", ".xml")):
-                digest.update(source.read_bytes())
+    digest = hashlib.sha256(f"{robot} {sources_digest(*PACKAGES)}".encode())
     for job in listed:
-        digest.update(f"{job.agent.name} {job.loop} {job.agent.readings}".encode())
+        digest.update(f"{job.agent.name} {job.loop} {job.agent.readings.to_mapping()}".encode())
         for array in (
             job.agent.genotype,
             job.trial.alpha,

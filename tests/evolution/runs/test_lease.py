@@ -71,7 +71,8 @@ def holder_process(folder, renewal=15.0):
     """A real process that holds a folder, and has said so."""
     code = (
         "import sys, time; from pathlib import Path; from evolution.runs import lease; "
-        f"from evolution.runs.lock import locked\nlease.RENEWAL = {renewal}\nwith locked(Path(sys.argv[1])):\n"
+        "from evolution.runs.lock import locked\n"
+        f"lease.RENEWAL = {renewal}\nwith locked(Path(sys.argv[1])):\n"
         "    print('held', flush=True); time.sleep(60)"
     )
     process = subprocess.Popen(
