@@ -28,7 +28,7 @@ class StudyCommand:
     name: Positional[Literal["readings"]]
     """The study: readings, what the paper leaves open (docs/readings.md)."""
 
-    part: Literal["screening", "finalists", "around", "confirmation"] = "screening"
+    part: Literal["screening", "finalists", "around", "confirmation", "factorial"] = "screening"
     """screening (3000 generations, one reading at a time and the geometry in depth), finalists (the whole
     experiment under the default and the three that came nearest to the paper in the screening), around (as
     the screening: other sizes of mutations, and one reading at a time on top of the favoured size) or
@@ -53,6 +53,10 @@ class StudyCommand:
     results: Path | None = None
     """Folder for tables and pictures, by default results in the part's folder."""
 
+    rows: Path | None = None
+    """File of measured rows of a declared part, by default rows.csv in the part's folder: runs that have
+    a row there are not evolved again, and every run that is measured gets one."""
+
     def run(self) -> int:
         """Study; the exit code is 130 if it was stopped, 2 if a run was given up or nothing is measured."""
         from evolution.experiments.plan_runner import processes
@@ -60,6 +64,10 @@ class StudyCommand:
         from evolution.runs.lock import locked
         from evolution.runs.storage import make_folder
 
+        if self.part == "factorial":
+            return self._run_declared()
+        if self.rows is not None:
+            raise ValueError(f"the part {self.part} keeps no file of rows; leave --rows away")
         part, at_once = self._part(), processes(self.jobs)
         plan = _plan(part, self.output)
         failures = ()
@@ -72,6 +80,31 @@ class StudyCommand:
                     print("stopped; go on with the same command")
                     return INTERRUPTED
         _write(plan, part, self.results or plan.folder / "results")
+        for each in failures:
+            print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
+        return BAD_INPUT if failures else 0
+
+    def _run_declared(self) -> int:
+        """Evolve and measure what has no row yet."""
+        from evolution.experiments.plan_runner import processes
+        from evolution.runs.interrupt import StopRequest
+        from evolution.study.declared import GENERATIONS, factorial
+        from evolution.study.measured_plan import RowFile, carry_out
+        from evolution.study.measures import check_generations
+
+        if self.seeds is not None:
+            raise ValueError(f"every run of the part {self.part} has its seed; leave --seeds away")
+        generations = GENERATIONS if self.generations is None else self.generations
+        check_generations(generations)
+        part, folder, failures = factorial(generations), self.output / self.part, ()
+        rows = RowFile(self.rows or folder / "rows.csv", part)
+        if not self.now:
+            with StopRequest() as stop:
+                failures = carry_out(rows, folder, processes(self.jobs), stop)
+            if stop.requested:
+                print("stopped; go on with the same command")
+                return INTERRUPTED
+        print(f"{len(rows.read())} of {len(part.configs)} runs are measured; their rows are in {rows.path}")
         for each in failures:
             print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
         return BAD_INPUT if failures else 0

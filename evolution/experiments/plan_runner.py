@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 
@@ -57,6 +57,7 @@ def run_plan_shown(
     stop: StopRequest | None = None,
     console: Console | None = None,
     elsewhere: Start | None = None,
+    on_end: Callable[[Ended], None] = lambda ended: None,
 ) -> tuple[Failure, ...]:
     """The same under the live table, plan and times being noted in the folder.
 
@@ -66,6 +67,7 @@ def run_plan_shown(
         stop: An open one, if the caller has more to do when stopped; else Ctrl-C stops this alone.
         console: Where the table is shown.
         elsewhere: How workers are started on other machines, which then get all jobs, to queue them.
+        on_end: Called for every process that ended, too.
 
     Returns:
         The jobs that were given up.
@@ -88,6 +90,7 @@ def run_plan_shown(
         def end(ended: Ended) -> None:
             note_time(plan.folder, ended)
             watch.forget(ended.job.name)
+            on_end(ended)
 
         watcher = Watcher(
             on_tick=tick,
