@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from evolution.experiments.jobs import Failure
     from evolution.experiments.plan import Plan
     from evolution.runs.interrupt import StopRequest
+    from evolution.search.config import RunConfig
+    from evolution.study.declared.parts import DeclaredPart
+    from evolution.study.declared.rows import MeasuredRun
     from evolution.study.variants import Part
 
 
@@ -54,8 +57,8 @@ class StudyCommand:
     """Folder for tables and pictures, by default results in the part's folder."""
 
     rows: Path | None = None
-    """File of measured rows of a declared part, by default rows.csv in the part's folder: runs that have
-    a row there are not evolved again, and every run that is measured gets one."""
+    """File of measured rows to begin with, such as docs/results/readings/factorial.csv: its runs are not
+    evolved again. A declared part keeps the rows of all its runs in rows.csv in its folder."""
 
     def run(self) -> int:
         """Study; the exit code is 130 if it was stopped, 2 if a run was given up or nothing is measured."""
@@ -88,8 +91,9 @@ class StudyCommand:
         """Evolve and measure what has no row yet."""
         from evolution.experiments.plan_runner import processes
         from evolution.runs.interrupt import StopRequest
-        from evolution.study.declared import GENERATIONS, factorial
-        from evolution.study.measured_plan import RowFile, carry_out
+        from evolution.study.declared.parts import GENERATIONS, factorial
+        from evolution.study.declared.plan import RowFile, carry_out
+        from evolution.study.declared.results import write_factorial
         from evolution.study.measures import check_generations
 
         if self.seeds is not None:
@@ -97,17 +101,30 @@ class StudyCommand:
         generations = GENERATIONS if self.generations is None else self.generations
         check_generations(generations)
         part, folder, failures = factorial(generations), self.output / self.part, ()
-        rows = RowFile(self.rows or folder / "rows.csv", part)
+        rows, known = RowFile(folder / "rows.csv", part), self._known(part)
         if not self.now:
             with StopRequest() as stop:
-                failures = carry_out(rows, folder, processes(self.jobs), stop)
+                failures = carry_out(rows, folder, processes(self.jobs), stop, known.values())
             if stop.requested:
                 print("stopped; go on with the same command")
                 return INTERRUPTED
-        print(f"{len(rows.read())} of {len(part.configs)} runs are measured; their rows are in {rows.path}")
+        found = known | rows.read()
+        runs = [found[config] for config in part.configs if config in found]
+        paths, notes = write_factorial(runs, self.results or folder / "results")
+        print(*paths, *notes, f"{len(runs)} of {len(part.configs)} runs are measured so far", sep="\n")
         for each in failures:
             print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
         return BAD_INPUT if failures else 0
+
+    def _known(self, part: DeclaredPart) -> dict[RunConfig, MeasuredRun]:
+        """The runs of the file of rows to begin with, if there is one."""
+        from evolution.study.declared.plan import RowFile
+
+        if self.rows is None:
+            return {}
+        if not self.rows.is_file():
+            raise ValueError(f"there is no file {self.rows}; give one that a study of the same part wrote")
+        return RowFile(self.rows, part).read()
 
     def _part(self) -> Part:
         """The part that is asked for, with the numbers of seeds and generations that are."""

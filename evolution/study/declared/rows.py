@@ -24,7 +24,7 @@ from evolution.runs.folder import RunFolder
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.study.late_transitions import CLASSES, TESTS, passed_transitions
+from evolution.study.declared.transitions import CLASSES, TESTS, passed_transitions
 from evolution.study.measures import measure
 from evolution.study.table import ACTIONS, AREAS
 

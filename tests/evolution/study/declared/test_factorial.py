@@ -12,13 +12,13 @@ from arm2d import Condition, Readings
 from arm2d.readings import choices
 from evolution.cli import main
 from evolution.runs.folder import RunFolder
-from evolution.study.declared import factorial, is_held_back
-from evolution.study.factors import FACTORS, balanced_worlds, levels_of, world_of
-from evolution.study.measured_plan import RowFile
-from evolution.study.measured_rows import COUNTS, measured_run, read_rows, write_rows
+from evolution.study.declared.factors import FACTORS, balanced_worlds, levels_of, world_of
+from evolution.study.declared.parts import factorial, is_held_back
+from evolution.study.declared.plan import RowFile
+from evolution.study.declared.rows import COUNTS, measured_run, read_rows, write_rows
 from tests.evolution.runs.golden import ALTERNATIVES
 
-DOCS = Path(__file__).parents[3] / "docs"
+DOCS = Path(__file__).parents[4] / "docs"
 WORLDS = factorial().names
 
 
@@ -102,7 +102,7 @@ def studied(tmp_path_factory):
     part = factorial(30)
     few = type(part)(part.name, part.configs[:4], part.names)
     from evolution.runs.interrupt import StopRequest
-    from evolution.study.measured_plan import carry_out
+    from evolution.study.declared.plan import carry_out
 
     rows = RowFile(folder / "rows.csv", few)
     with StopRequest() as stop:

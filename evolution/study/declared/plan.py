@@ -20,9 +20,9 @@ from evolution.runs.interrupt import StopRequest
 from evolution.runs.lock import locked
 from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
-from evolution.study.declared import DeclaredPart
-from evolution.study.late_transitions import are_tested
-from evolution.study.measured_rows import MeasuredRun, measured_run, read_rows, write_rows
+from evolution.study.declared.parts import DeclaredPart
+from evolution.study.declared.rows import MeasuredRun, measured_run, read_rows, write_rows
+from evolution.study.declared.transitions import are_tested
 from evolution.study.measures import is_measured
 
 MEASURING: Final = "measuring"
@@ -103,7 +103,9 @@ class RowFile:
         self.add(measured_run(RunFolder.open(plan.path(config))) for config in ready)
 
 
-def carry_out(rows: RowFile, folder: Path, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
+def carry_out(
+    rows: RowFile, folder: Path, at_once: int, stop: StopRequest, known: Iterable[MeasuredRun] = ()
+) -> tuple[Failure, ...]:
     """Evolve and measure all runs that have no row yet; the jobs that were given up.
 
     Args:
@@ -111,6 +113,7 @@ def carry_out(rows: RowFile, folder: Path, at_once: int, stop: StopRequest) -> t
         folder: For the runs.
         at_once: Processes at a time.
         stop: An open one; what is at work is then left in good order.
+        known: Runs measured elsewhere, which get their rows first.
 
     Raises:
         ValueError: If the file of rows cannot be understood, or a folder holds another run.
@@ -118,6 +121,7 @@ def carry_out(rows: RowFile, folder: Path, at_once: int, stop: StopRequest) -> t
     """
     make_folder(folder)
     with locked(folder):
+        rows.add(known)
         plan = rows.plan(folder)
         rows.collect(plan)
 

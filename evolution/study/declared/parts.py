@@ -9,7 +9,7 @@ from typing import Final
 from arm2d import Condition, Readings
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.study.factors import balanced_worlds
+from evolution.study.declared.factors import balanced_worlds
 
 # The factorial study. Its seeds are none of those of other parts.
 DESIGN_SEED: Final = 13
