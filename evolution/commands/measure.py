@@ -26,7 +26,7 @@ class Measure:
         from evolution.agents.subtasks import SUBTASKS
         from evolution.runs.folder import RunFolder
         from evolution.runs.lock import locked
-        from evolution.study.declared.transitions import passed_transitions
+        from evolution.study.late_transitions import passed_transitions
         from evolution.study.measures import measure
 
         run = RunFolder.open(self.run_folder)

@@ -31,7 +31,9 @@ class StudyCommand:
     name: Positional[Literal["readings"]]
     """The study: readings, what the paper leaves open (docs/readings.md)."""
 
-    part: Literal["screening", "finalists", "around", "confirmation", "factorial"] = "screening"
+    part: Literal[
+        "screening", "finalists", "around", "confirmation", "factorial", "fresh", "less-one", "hundred"
+    ] = "screening"
     """screening (3000 generations, one reading at a time and the geometry in depth), finalists (the whole
     experiment under the default and the three that came nearest to the paper in the screening), around (as
     the screening: other sizes of mutations, and one reading at a time on top of the favoured size) or
@@ -60,6 +62,9 @@ class StudyCommand:
     """File of measured rows to begin with, such as docs/results/readings/factorial.csv: its runs are not
     evolved again. A declared part keeps the rows of all its runs in rows.csv in its folder."""
 
+    early: bool = False
+    """Choose and compare with as many runs of the declared parts before as are measured by now."""
+
     def run(self) -> int:
         """Study; the exit code is 130 if it was stopped, 2 if a run was given up or nothing is measured."""
         from evolution.experiments.plan_runner import processes
@@ -67,10 +72,10 @@ class StudyCommand:
         from evolution.runs.lock import locked
         from evolution.runs.storage import make_folder
 
-        if self.part == "factorial":
+        if self.part in ("factorial", "fresh", "less-one", "hundred"):
             return self._run_declared()
-        if self.rows is not None:
-            raise ValueError(f"the part {self.part} keeps no file of rows; leave --rows away")
+        if self.rows is not None or self.early:
+            raise ValueError(f"--rows and --early are for declared parts, which {self.part} is not")
         part, at_once = self._part(), processes(self.jobs)
         plan = _plan(part, self.output)
         failures = ()
@@ -91,26 +96,26 @@ class StudyCommand:
         """Evolve and measure what has no row yet."""
         from evolution.experiments.plan_runner import processes
         from evolution.runs.interrupt import StopRequest
-        from evolution.study.declared.parts import GENERATIONS, factorial
-        from evolution.study.declared.plan import RowFile, carry_out
-        from evolution.study.declared.results import write_factorial
+        from evolution.study.declared.plan import carry_out
+        from evolution.study.declared.study import DeclaredStudy
         from evolution.study.measures import check_generations
 
         if self.seeds is not None:
             raise ValueError(f"every run of the part {self.part} has its seed; leave --seeds away")
-        generations = GENERATIONS if self.generations is None else self.generations
-        check_generations(generations)
-        part, folder, failures = factorial(generations), self.output / self.part, ()
-        rows, known = RowFile(folder / "rows.csv", part), self._known(part)
+        if self.generations is not None:
+            check_generations(self.generations)
+        study = DeclaredStudy(self.output, generations=self.generations, early=self.early)
+        part = study.part(self.part)
+        rows, known, failures = study.rows(part), self._known(part), ()
         if not self.now:
             with StopRequest() as stop:
-                failures = carry_out(rows, folder, processes(self.jobs), stop, known.values())
+                failures = carry_out(rows, rows.path.parent, processes(self.jobs), stop, known.values())
             if stop.requested:
                 print("stopped; go on with the same command")
                 return INTERRUPTED
         found = known | rows.read()
         runs = [found[config] for config in part.configs if config in found]
-        paths, notes = write_factorial(runs, self.results or folder / "results")
+        paths, notes = study.write(part, runs, self.results or rows.path.parent / "results")
         print(*paths, *notes, f"{len(runs)} of {len(part.configs)} runs are measured so far", sep="\n")
         for each in failures:
             print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")

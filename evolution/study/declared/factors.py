@@ -25,7 +25,7 @@ class Factor:
 
     Attributes:
         name: For people and tables.
-        levels: Readings by the level's name; the first level is the default.
+        levels: Readings by the level's name; the first is the default of the time of the declaration.
     """
 
     name: str
@@ -77,7 +77,7 @@ FACTORS: Final = (
             "between +- 4": {"start_areas": "between", "start_half_width": 4.0},
             "between +- 0": {"start_areas": "between", "start_half_width": 0.0},
             "between +- 8": {"start_areas": "between", "start_half_width": 8.0},
-            "bounds": {"start_areas": "bounds"},
+            "bounds": {"start_areas": "bounds", "start_half_width": 4.0},
         },
     ),
     _of_reading("bound_vision", "at", "near"),
@@ -100,6 +100,10 @@ def world_of(levels: Sequence[str], factors: Sequence[Factor] = FACTORS) -> Read
     for factor, level in zip(factors, levels, strict=True):
         values |= factor.levels[level]
     return Readings().with_values(values)
+
+
+# The default at the time of the declaration, whatever becomes of it.
+DECLARED_DEFAULT: Final = world_of([next(iter(factor.levels)) for factor in FACTORS])
 
 
 def levels_of(world: Readings, factors: Sequence[Factor] = FACTORS) -> tuple[str, ...]:

@@ -29,11 +29,13 @@ class DeclaredPart:
         name: On the command line.
         configs: The runs, in the order in which they are started.
         names: Of the worlds.
+        whole: Whether all late agents are tested, not a sample of them.
     """
 
     name: str
     configs: tuple[RunConfig, ...]
     names: Mapping[Readings, str] = field(default_factory=dict)
+    whole: bool = False
 
 
 def factorial(generations: int = GENERATIONS) -> DeclaredPart:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from evolution.experiments.jobs import Failure
-from evolution.experiments.plan import LOGS, Plan
+from evolution.experiments.plan import LOGS, TESTING, Plan
 from evolution.experiments.plan_runner import run_plan_shown
 from evolution.experiments.standing import Standing
 from evolution.experiments.workers import Ended, Job
@@ -21,8 +21,8 @@ from evolution.runs.lock import locked
 from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
 from evolution.study.declared.parts import DeclaredPart
-from evolution.study.declared.rows import MeasuredRun, measured_run, read_rows, write_rows
-from evolution.study.declared.transitions import are_tested
+from evolution.study.declared.rows import MeasuredRun, measured_run, read_rows, tested_run, write_rows
+from evolution.study.late_transitions import are_tested
 from evolution.study.measures import is_measured
 
 MEASURING: Final = "measuring"
@@ -30,7 +30,7 @@ MEASURING: Final = "measuring"
 
 @dataclass(frozen=True)
 class MeasuredPlan(Plan):
-    """A plan that measures every run as soon as it is evolved.
+    """A plan that measures every run as soon as it is evolved, or, with `post_evaluate`, tests it whole.
 
     Attributes:
         known: Runs that have a measured row, of which no folder is needed.
@@ -38,15 +38,27 @@ class MeasuredPlan(Plan):
 
     known: Mapping[RunConfig, MeasuredRun] = field(default_factory=dict)
 
+    @property
+    def last_stage(self) -> str:
+        """What ends a run."""
+        return TESTING if self.post_evaluate else MEASURING
+
     def standing(self, config: RunConfig) -> Standing:
         """How far a run has come; it is done when it is measured."""
         if row := self.known.get(config):
             generations, name = config.settings.generations, self.variant(config)
             return Standing(config, generations, row.plateau, evolved=True, done=True, variant=name)
         standing = super().standing(config)
-        return replace(standing, done=standing.done and has_measures(self.path(config)))
+        measured = self.post_evaluate or has_measures(self.path(config))
+        return replace(standing, done=standing.done and measured)
+
+    def row(self, path: Path) -> MeasuredRun:
+        """The row of a run that is done; raises ValueError if it is not."""
+        return (tested_run if self.post_evaluate else measured_run)(RunFolder.open(path))
 
     def _stages(self, standing: Standing) -> list[Job]:
+        if self.post_evaluate:
+            return super()._stages(standing)
         path = self.path(standing.config)
         log = self.folder / LOGS / "measures.log"
         measuring = Job(standing.name, MEASURING, ("measure", "--transitions", str(path)), path, log)
@@ -93,14 +105,12 @@ class RowFile:
         """The runs of the part, with those known that have a row."""
         settings = {config.settings for config in self.part.configs}
         names = {(world, own): name for world, name in self.part.names.items() for own in settings}
-        return MeasuredPlan(folder, self.part.configs, post_evaluate=False, names=names, known=self.read())
+        return MeasuredPlan(folder, self.part.configs, self.part.whole, names, self.read())
 
     def collect(self, plan: MeasuredPlan) -> None:
         """Add the rows of all runs of a plan that are measured by now."""
-        ready = [
-            config for config in plan.configs if config not in plan.known and has_measures(plan.path(config))
-        ]
-        self.add(measured_run(RunFolder.open(plan.path(config))) for config in ready)
+        unknown = (config for config in plan.configs if config not in plan.known)
+        self.add(plan.row(plan.path(config)) for config in unknown if plan.standing(config).done)
 
 
 def carry_out(
@@ -126,7 +136,7 @@ def carry_out(
         rows.collect(plan)
 
         def keep(ended: Ended) -> None:
-            if ended.exit_code == 0 and ended.job.stage == MEASURING:
-                rows.add([measured_run(RunFolder.open(ended.job.folder))])
+            if ended.exit_code == 0 and ended.job.stage == plan.last_stage:
+                rows.add([plan.row(ended.job.folder)])
 
         return run_plan_shown(plan, at_once, stop, on_end=keep)

@@ -16,6 +16,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from evolution.results.statistics import NORMAL_95
 from evolution.study.declared.factors import FACTORS, levels_of
 from evolution.study.declared.outcomes import Outcome
 from evolution.study.declared.rows import MeasuredRun
@@ -25,7 +26,6 @@ SIGNIFICANT: Final = 0.05
 RUNS_PER_PARAMETER: Final = 5
 FEWEST_RUNS_PER_PARAMETER: Final = 2
 TINY: Final = 1e-12  # a share of 0, as log odds
-Z: Final = 1.959964  # two-sided 95 % of a normal
 SIZES: Final = tuple(len(each.levels) for each in FACTORS)
 N_MAIN: Final = 1 + sum(size - 1 for size in SIZES)
 Pair = tuple[int, int]  # of factors, by their place in FACTORS
@@ -94,7 +94,7 @@ class Model:
     def _estimate(self, value: float, gradient: NDArray[np.float64]) -> Estimate:
         """A number and its interval by the delta method."""
         error = float(np.sqrt(max(gradient @ self.covariance @ gradient, 0.0)))
-        return Estimate(value, value - Z * error, value + Z * error)
+        return Estimate(value, value - NORMAL_95 * error, value + NORMAL_95 * error)
 
     def _mean_of(self, linear: NDArray[np.float64]) -> NDArray[np.float64]:
         return 1 / (1 + np.exp(-linear)) if self.outcome.is_share else linear

@@ -16,16 +16,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition, Readings
-from evolution.agents.postevaluation import N_INSTRUCTIONS, TRIALS
+from evolution.agents.postevaluation import N_INSTRUCTIONS, TRIALS, read_post_evaluation
 from evolution.agents.subtasks import MOVE_BLUE, SUBTASKS, TOUCH_GREEN, categories, classify, masters
+from evolution.agents.transition_test import read_transition_test
+from evolution.agents.transitions import passes
 from evolution.report.rows import to_csv
 from evolution.results.records import FITNESS_LIMIT, PLATEAU_TOLERANCE
 from evolution.runs.folder import RunFolder
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.study.declared.transitions import CLASSES, TESTS, passed_transitions
-from evolution.study.measures import measure
+from evolution.study.late_transitions import CLASSES, TESTS, passed_transitions
+from evolution.study.measures import measure, plateau_of, solved_of
 from evolution.study.table import ACTIONS, AREAS
 
 READINGS: Final = tuple(each.name for each in fields(Readings))
@@ -59,7 +61,8 @@ class MeasuredRun:
         first_solved: First generation in which one genotype carried out all its trials; -1 if none.
         solved_late: Share of the last third of generations in which one did.
         counts: Of late agents, by the names in `COUNTS`.
-        successes: Share of late agents' successful trials, [9, 2].
+        successes: Share of late agents' successful trials, [9, 2]; after a whole post-evaluation, which does
+            not tell start areas apart, both columns are the same.
     """
 
     config: RunConfig
@@ -90,17 +93,52 @@ class MeasuredRun:
 
 
 def measured_run(folder: RunFolder) -> MeasuredRun:
-    """The numbers of a finished run; what has to be simulated for them is kept beside it.
+    """The numbers of a finished run, from a sample; what has to be simulated for them is kept beside it.
 
     Raises:
         ValueError: If the run is not finished, or too short.
         DamagedFileError: If a file of it is damaged.
     """
     found = measure(folder)
-    condition, agents = folder.config.condition, found.agents
+    return MeasuredRun(
+        config=folder.config,
+        plateau=round(found.plateau, 6),
+        first_solved=found.first_solved,
+        solved_late=round(found.solved_late, 4),
+        counts=_counts(found.agents, passed_transitions(folder, found), folder.config.condition),
+        successes=found.success_by_area.round(4),
+    )
+
+
+def tested_run(folder: RunFolder) -> MeasuredRun:
+    """The numbers of a run that was post-evaluated whole; start areas are not told apart there.
+
+    Raises:
+        ValueError: If it was not post-evaluated.
+        DamagedFileError: If a file of it is damaged.
+    """
+    agents, tests = read_post_evaluation(folder).agents, read_transition_test(folder)
+    first, share = solved_of(folder)
+    passed = np.array(
+        [
+            [passes(test[tests.classes == place]).sum() for test in (tests.action, tests.object)]
+            for place in range(len(CLASSES))
+        ]
+    )
+    return MeasuredRun(
+        config=folder.config,
+        plateau=round(plateau_of(folder), 6),
+        first_solved=first,
+        solved_late=round(share, 4),
+        counts=_counts(agents, passed, folder.config.condition),
+        successes=np.repeat(agents.mean(axis=0)[:, np.newaxis] / TRIALS, len(AREAS), axis=1).round(4),
+    )
+
+
+def _counts(agents: NDArray[np.integer], passed: NDArray[np.integer], condition: Condition) -> dict[str, int]:
+    """What is counted of agents with these successes [A, 9], passed [3, 2] of whom pass the transitions."""
     in_category = categories(agents, condition)  # [A, 4]
-    known = masters(agents, condition)
-    order = condition.instructions
+    known, order = masters(agents, condition), condition.instructions
     understood = {each: 4 * agents[:, order.index(each)].astype(int) > 3 * TRIALS for each in NON_EXPERIENCED}
     numbers = (
         len(agents),
@@ -110,16 +148,9 @@ def measured_run(folder: RunFolder) -> MeasuredRun:
         (known & understood[MOVE_BLUE]).sum(),
         (known & understood[TOUCH_GREEN]).sum(),
         *(each.sum() for each in classify(agents, condition).values()),
-        *passed_transitions(folder, found).ravel(),
+        *passed.ravel(),
     )
-    return MeasuredRun(
-        config=folder.config,
-        plateau=round(found.plateau, 6),
-        first_solved=found.first_solved,
-        solved_late=round(found.solved_late, 4),
-        counts={name: int(number) for name, number in zip(COUNTS, numbers, strict=True)},
-        successes=found.success_by_area.round(4),
-    )
+    return {name: int(number) for name, number in zip(COUNTS, numbers, strict=True)}
 
 
 def write_rows(runs: Iterable[MeasuredRun], path: Path) -> None:
