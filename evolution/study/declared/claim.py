@@ -189,9 +189,9 @@ def _by_runs(kind: str, groups: Sequence[Sequence[MeasuredRun]]) -> Answer:
 
     counted = [(sum(run.counts[kind] > 0 for run in group), len(group)) for group in groups]
     (k1, n1), (k2, n2) = counted
-    p = float(fisher_exact([[k1, n1 - k1], [k2, n2 - k2]]).pvalue)
+    _, p = fisher_exact([[k1, n1 - k1], [k2, n2 - k2]])
     difference = Estimate((k1 / n1) - (k2 / n2), *proportions_interval(*counted))
-    return Answer(f"runs with {kind} agents", (n1, n2), (k1 / n1, k2 / n2), difference, p)
+    return Answer(f"runs with {kind} agents", (n1, n2), (k1 / n1, k2 / n2), difference, float(p))
 
 
 def _holds_zero(each: Estimate) -> bool:

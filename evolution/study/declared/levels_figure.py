@@ -8,6 +8,7 @@ from typing import Final
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from arm2d import Condition
 from arm2d.drawing import INK
@@ -42,9 +43,7 @@ def levels_figure(models: Mapping[Condition, Sequence[Model]], title: str) -> Fi
         for label, (_, level, _) in zip(panels[0].get_yticklabels(), rows, strict=True):
             label.set_fontweight("bold" if level == 0 else "normal")
         panels[0].set_ylim(rows[-1][2] + 0.7, -0.7)
-        handles = [
-            mpl.lines.Line2D([], [], color=COLOURS[c], marker="o", ms=4, label=TITLES[c]) for c in models
-        ]
+        handles = [Line2D([], [], color=COLOURS[c], marker="o", ms=4, label=TITLES[c]) for c in models]
         figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), frameon=False)
         figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
     return figure

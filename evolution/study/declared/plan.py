@@ -21,7 +21,7 @@ from evolution.runs.lock import locked
 from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
 from evolution.study.declared.parts import DeclaredPart
-from evolution.study.declared.rows import MeasuredRun, measured_run, read_rows, tested_run, write_rows
+from evolution.study.declared.rows import MeasuredRun, measured_run, post_evaluated_run, read_rows, write_rows
 from evolution.study.late_transitions import are_tested
 from evolution.study.measures import is_measured
 
@@ -54,7 +54,7 @@ class MeasuredPlan(Plan):
 
     def row(self, path: Path) -> MeasuredRun:
         """The row of a run that is done; raises ValueError if it is not."""
-        return (tested_run if self.post_evaluate else measured_run)(RunFolder.open(path))
+        return (post_evaluated_run if self.post_evaluate else measured_run)(RunFolder.open(path))
 
     def _stages(self, standing: Standing) -> list[Job]:
         if self.post_evaluate:

@@ -110,7 +110,7 @@ def measured_run(folder: RunFolder) -> MeasuredRun:
     )
 
 
-def tested_run(folder: RunFolder) -> MeasuredRun:
+def post_evaluated_run(folder: RunFolder) -> MeasuredRun:
     """The numbers of a run that was post-evaluated whole; start areas are not told apart there.
 
     Raises:

@@ -158,7 +158,7 @@ def test_worlds_are_compared_with_themselves():
         base = shares.setdefault(config.seed, rng.uniform(0, 0.8))
         k = round(500 * (base + 0.04 * (config.condition is INDICATE) + rng.normal(0, 0.02)))
         run = made_up(config)
-        runs.append(replace(run, counts=run.counts | {FULL: max(k, 0)}))
+        runs.append(replace(run, counts={**run.counts, FULL: max(k, 0)}))
     assert len(world_differences(runs, QUESTIONS[0])) == 150
     first, *_ = averaged_over_worlds(runs)
     assert first.difference.low > 0.02

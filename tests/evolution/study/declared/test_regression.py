@@ -97,7 +97,7 @@ def test_interaction_that_is_there_enters_and_others_do_not(plateau):
 
 def test_intervals_hold_what_they_promise():
     """Of twenty 95 % intervals of an effect at most three miss it, whether it is 0.3 or none."""
-    missed = dict.fromkeys(("mutation", "crossover"), 0)
+    missed = {"mutation": 0, "crossover": 0}
     for seed in range(20):
         rng = np.random.default_rng(seed)
         runs = [
