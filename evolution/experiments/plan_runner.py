@@ -6,7 +6,7 @@ import math
 import os
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from typing import Final
@@ -75,6 +75,7 @@ def run_plan_shown(
     stop: StopRequest | None = None,
     console: Console | None = None,
     elsewhere: Start | None = None,
+    on_end: Callable[[Ended], None] = lambda ended: None,
 ) -> tuple[Failure, ...]:
     """The same under the live table, plan and times being noted in the folder.
 
@@ -84,6 +85,7 @@ def run_plan_shown(
         stop: An open one, if the caller has more to do when stopped; else Ctrl-C stops this alone.
         console: Where the table is shown.
         elsewhere: How workers are started on other machines, which then get all jobs, to queue them.
+        on_end: Called for every process that ended, too.
 
     Returns:
         The jobs that were given up.
@@ -106,6 +108,7 @@ def run_plan_shown(
         def end(ended: Ended) -> None:
             note_time(plan.folder, ended)
             watch.forget(ended.job.name)
+            on_end(ended)
 
         overseer = Overseer(
             on_tick=tick,

@@ -21,6 +21,7 @@ LARGEST_EXACT: Final = 200_000
 BOOTSTRAP_SAMPLES: Final = 10_000
 # Up to so many runs, all choices of signs are counted.
 MOST_FLIPPED: Final = 16
+NORMAL_95: Final = 1.959964  # two-sided 95 % of a normal distribution
 
 
 @dataclass(frozen=True)
@@ -137,6 +138,14 @@ def mean_interval(values: NDArray[np.float64], rng: np.random.Generator) -> tupl
     return bootstrap_interval([values], lambda groups: groups[0].mean(axis=1), rng)
 
 
+def proportions_interval(first: tuple[int, int], second: tuple[int, int]) -> tuple[float, float]:
+    """95 % interval of k1 / n1 - k2 / n2, each given as (k, n): Newcombe's, made of Wilson's two."""
+    (p1, low1, high1), (p2, low2, high2) = _wilson(*first), _wilson(*second)
+    difference = p1 - p2
+    down, up = np.hypot(p1 - low1, high2 - p2), np.hypot(high1 - p1, p2 - low2)
+    return float(difference - down), float(difference + up)
+
+
 def wilcoxon_as_published(first: NDArray[np.float64], second: NDArray[np.float64]) -> tuple[float, float]:
     """(statistic, two-sided p) of Wilcoxon's rank sum test on numbers that stand for many agents each.
 
@@ -150,3 +159,10 @@ def wilcoxon_as_published(first: NDArray[np.float64], second: NDArray[np.float64
 
 def _difference_of_means(groups: list[NDArray[np.float64]]) -> NDArray[np.float64]:
     return groups[0].mean(axis=1) - groups[1].mean(axis=1)
+
+
+def _wilson(k: int, n: int) -> tuple[float, float, float]:
+    """A proportion with Wilson's 95 % interval."""
+    p, z2 = k / n, NORMAL_95**2
+    middle, half = p + z2 / (2 * n), NORMAL_95 * (p * (1 - p) / n + z2 / (4 * n**2)) ** 0.5
+    return p, (middle - half) / (1 + z2 / n), (middle + half) / (1 + z2 / n)

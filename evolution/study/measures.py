@@ -92,17 +92,16 @@ def measure(folder: RunFolder) -> RunMeasures:
     if len(folder.finished_spans()) < len(folder.spans):
         raise ValueError(f"{folder.path} is not finished; go on with: wordarm study")
     successes = _late_successes(folder)
-    solved = solved_trials(folder)
+    first, share = solved_of(folder)
+    return RunMeasures(folder.config, plateau_of(folder), first, share, successes)
+
+
+def solved_of(folder: RunFolder) -> tuple[int, float]:
+    """First generation in which one genotype carried out all its trials, -1 if none; share of late ones."""
     n_trials = 2 * folder.config.settings.trials_per_area * len(folder.config.condition.experienced)
-    all_solved = solved == n_trials
-    first_late = late_spans(folder)[0].start
-    return RunMeasures(
-        config=folder.config,
-        plateau=_plateau(folder),
-        first_solved=int(np.argmax(all_solved)) if all_solved.any() else -1,
-        solved_late=float(all_solved[first_late:].mean()),
-        successes=successes,
-    )
+    all_solved = solved_trials(folder) == n_trials
+    first = int(np.argmax(all_solved)) if all_solved.any() else -1
+    return first, float(all_solved[late_spans(folder)[0].start :].mean())
 
 
 def check_generations(generations: int) -> None:
@@ -124,7 +123,7 @@ def sampled_generations(folder: RunFolder) -> list[int]:
     return [g for span in late_spans(folder) for g in span if g % SAMPLE_STEP == 0]
 
 
-def _plateau(folder: RunFolder) -> float:
+def plateau_of(folder: RunFolder) -> float:
     """Median best fitness at the end of a finished run; only the parts it stands in are read."""
     generations = folder.config.settings.generations
     first = generations - max(1, round(generations * PLATEAU_SHARE))

@@ -1,7 +1,6 @@
 """The study of readings: its variants, what runs are measured by, its tables and pictures."""
 
 import csv
-import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,10 +8,10 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, Readings
-from arm2d.readings import choices
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.cli import main
+from evolution.experiments.variants import variant_name
 from evolution.report.files import to_csv
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
@@ -25,9 +24,9 @@ from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import FILE, measure
 from evolution.study.results import write_study
 from evolution.study.table import group, nearest, run_rows, variant_rows
-from evolution.study.variants import FACTORS, around, confirmation, finalists, screening
+from evolution.study.variants import around, confirmation, finalists, screening
 
-LEDGER = (Path(__file__).parents[3] / "docs" / "ledger.md").read_text(encoding="utf-8")
+RESULTS = Path(__file__).parents[3] / "docs" / "results" / "readings"
 SETTINGS = Settings(population=12, elites=2, parents=6, generations=40)
 
 
@@ -43,35 +42,11 @@ def measured(tmp_path_factory):
     return path, named
 
 
-def listed_numbers():
-    """(reading, its alternative) for every number of the ledger that is not a default."""
-    rows = re.findall(r"^\| `(\w+)` \| .*? \| (.*?) \| .*? \|$", LEDGER, re.MULTILINE)
-    return [(name, text) for name, values in rows for text in re.findall(r"`([\d., ]+)`", values)]
-
-
-# Readings that came into the ledger after these parts of the study had been run.
-YOUNGER = {
-    ("parent_scaling", "excess"),
-    ("parent_scaling", "rank"),
-    ("crossover", 0.3),
-    ("object_radius", 11.8),
-    ("camera_origin", "end"),
-}
-
-
-def test_every_alternative_of_the_ledger_is_tried():
-    tried = {(name, value) for overrides in FACTORS for name, value in overrides.items()}
-    words = {
-        (name, value)
-        for name, allowed in choices().items()
-        for value in allowed
-        if value != getattr(Readings(), name)
-    }
-    # Under With-Indicate no instruction is IGNORE.
-    assert words - tried - YOUNGER == {("ignore_stops", "never")}
-    for name, text in listed_numbers():
-        numbers = tuple(float(part) for part in text.split(","))
-        assert (name, numbers if name == "sector_centres" else numbers[0]) in tried | YOUNGER
+def test_screening_stays_as_it_was_run():
+    """New readings go into the factorial study: these rows are history."""
+    with (RESULTS / "screening-variants.csv").open(encoding="utf-8") as file:
+        run = [row["variant"] for row in csv.DictReader(file)]
+    assert [variant_name(world) for world in screening().worlds] == run
 
 
 PARTS = [screening(), finalists([Readings(object_radius=8.0), Readings()]), around()]
