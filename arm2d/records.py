@@ -10,7 +10,7 @@ import numpy as np
 LONGEST_VALUE: Final = 48
 
 
-def brief(record: Any) -> str:
+def brief(record: Any, /) -> str:
     """A dataclass on one line, such as `Lineage(generations=[301], genotypes=[301, 84])`.
 
     In the body of a class, `__repr__ = brief` makes it the one that Python shows.
