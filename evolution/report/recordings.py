@@ -12,7 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 from arm2d import TrialRecord
-from arm2d.view import camera_position
+from arm2d.geometry import camera_position
 from evolution.agents.recording import record_instruction
 from evolution.results.notable import Agent
 from evolution.runs.sources import find_source
