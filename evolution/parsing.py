@@ -91,7 +91,7 @@ def nearest(word: str, among: Sequence[str]) -> str | None:
 
 
 def _parsed(kind: type[T], arguments: Sequence[str], prog: str, default: T | None) -> T:
-    return tyro.cli(
+    parsed: T = tyro.cli(  # pyright: ignore[reportAssignmentType]
         kind,
         prog=prog,
         args=list(arguments),
@@ -99,6 +99,7 @@ def _parsed(kind: type[T], arguments: Sequence[str], prog: str, default: T | Non
         config=(DisallowNone, FlagCreatePairsOff),
         registry=REGISTRY,
     )
+    return parsed
 
 
 def _width() -> int:

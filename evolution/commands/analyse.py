@@ -91,7 +91,7 @@ class Analyse:
             _compare(results, self.output or Path("comparison"))
         else:
             (only,) = results.values()
-            _write(only, self.output or self.experiments[0] / "results", self.ship)
+            _write(only, self.output or only.experiment.path / "results", self.ship)
         return 0
 
 

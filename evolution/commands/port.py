@@ -35,9 +35,9 @@ class Port(AgentCommand):
     """Which humanoid; an unknown name lists those there are."""
 
     output: Path | None = None
-    """The video; for all, its last picture lies beside it. A file of that name is replaced once the new
-    one is complete. By default `videos/<agent>-<instruction>.mp4` in the run folder, or in the current one;
-    the name tells start area, seed, robot and physics, too, where they are not the default."""
+    """The video; for all, its last picture lies beside it. A file of that name is replaced once the new one
+    is complete. By default `videos/<agent>-<instruction>.mp4` in the run folder or the current one; the name
+    also tells start area, seed, robot and physics where they are not the default."""
 
     physics: bool = False
     """Let the robot act: motors, free objects, contacts; prints what became of it in 2D and 3D."""
@@ -128,7 +128,7 @@ class Port(AgentCommand):
         return record_instruction(source, instruction, self.start_area, self.trial_seed)
 
     def _place(self, source: Source, what: str) -> Path:
-        """Where the video goes, its folder made, once it is sure that one can be drawn."""
+        """Where the video goes, its folder made; the robot is refused first if it cannot act."""
         from evolution.runs.storage import make_folder
         from mujoco_port.film.names import film_name
         from mujoco_port.film.physical_port import check_acts
@@ -141,7 +141,7 @@ class Port(AgentCommand):
             start_area=self.start_area,
             trial_seed=self.trial_seed,
             robot=self.robot,
-            physics=self.physics,
+            physics=self.acts,
             closed_loop=self.closed_loop,
         )
         output = self.output or home / "videos" / name
