@@ -78,7 +78,7 @@ class Reproduce(FromPreset):
         plan, began, console = self.cluster.placed(self.plan), time.monotonic(), Console()
         plan.check()
         if self.dry_run:
-            return self.cluster.show_script()
+            return self.cluster.show_script(plan.folder)
         with self.cluster.opened(plan.folder, console) as elsewhere:
             make_folder(plan.folder)
             with locked(plan.folder):
@@ -115,17 +115,17 @@ def _analyse(folder: Path) -> Results:
 
 def _look_at_agents(results: Results, folder: Path, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
     """Trace and observe the best agent of each condition, and observe classes; the jobs given up."""
-    from evolution.experiments.jobs import Watcher, run_jobs
+    from evolution.experiments.jobs import Overseer, run_jobs
     from evolution.experiments.stage_times import note_time
 
     if chains := _agent_chains(results, folder) + _class_chains(results, folder):
         print("tracing the best agents' ancestors, and what they and their classes do", flush=True)
-    watcher = Watcher(
+    overseer = Overseer(
         on_end=lambda ended: note_time(folder, ended),
         on_note=lambda note: print(note, flush=True),
         wants_stop=lambda: stop.requested,
     )
-    return run_jobs(chains, at_once, watcher)
+    return run_jobs(chains, at_once, overseer)
 
 
 def _report(results: Results, folder: Path) -> None:
@@ -154,23 +154,24 @@ def _tell_times(folder: Path, wall: float) -> None:
 
 def _agent_chains(results: Results, folder: Path) -> list[list[Job]]:
     """What is still to be drawn of the best agent of each condition: its ancestors, and how it does it."""
+    from evolution.child import reference
     from evolution.experiments.plan import LOGS
     from evolution.experiments.workers import Job
     from evolution.results.notable import best_agent
 
     chains = []
-    for condition, each in results.conditions.items():
-        if (agent := best_agent(each)) is None:
+    for condition, of_condition in results.conditions.items():
+        if (agent := best_agent(of_condition)) is None:
             continue
         path, stem = agent.run.path, f"generation-{agent.generation:06d}-rank-{agent.rank}"
         name, log = f"{condition}, its best agent", folder / LOGS / f"{condition}-best-agent.log"
-        which = (str(path), f"--generation={agent.generation}", f"--rank={agent.rank}")
-        for command, stage, done in (
-            ("lineage", "tracing ancestors", path / "lineage" / f"{stem}.npz"),
-            ("behaviour", "observing", path / "behaviour" / f"{stem}-behaviour.npz"),
+        which = {"folder": str(path), "generation": agent.generation, "rank": agent.rank}
+        for function, stage, done in (
+            (trace_ancestors, "tracing ancestors", path / "lineage" / f"{stem}.npz"),
+            (observe_agent, "observing", path / "behaviour" / f"{stem}-behaviour.npz"),
         ):
             if not done.exists():
-                chains.append([Job(name, stage, (command, *which), path, log)])
+                chains.append([Job(name, stage, reference(function), which, path, log)])
     return chains
 
 
@@ -178,16 +179,38 @@ def _class_chains(results: Results, folder: Path) -> list[list[Job]]:
     """What is still to be observed of the classes of agents, run by run."""
     from evolution.agents.classes import Sampling, observation_path
     from evolution.agents.subtasks import AgentClass
+    from evolution.child import reference
     from evolution.experiments.plan import LOGS
     from evolution.experiments.workers import Job
 
     chains = []
-    for condition, each in results.conditions.items():
-        for index, run in enumerate(each.runs):
-            some = any(each.members[kind][index] for kind in AgentClass)
+    for condition, of_condition in results.conditions.items():
+        for index, run in enumerate(of_condition.runs):
+            some = any(of_condition.members[kind][index] for kind in AgentClass)
             if some and not observation_path(run, Sampling()).exists():
                 log = folder / LOGS / f"{condition}-seed-{run.config.seed:04d}.log"
-                command = ("behaviour", str(run.path), "--classes", "--no-figures")
-                job = Job(f"{condition}, seed {run.config.seed}", "observing classes", command, run.path, log)
+                name, which = f"{condition}, seed {run.config.seed}", {"folder": str(run.path)}
+                job = Job(name, "observing classes", reference(observe_classes), which, run.path, log)
                 chains.append([job])
     return chains
+
+
+def trace_ancestors(folder: str, generation: int, rank: int) -> int:
+    """`wordarm lineage` of an agent, in a process of its own."""
+    from evolution.commands.lineage import LineageCommand
+
+    return LineageCommand(Path(folder), generation, rank).run()
+
+
+def observe_agent(folder: str, generation: int, rank: int) -> int:
+    """`wordarm behaviour` of an agent, in a process of its own."""
+    from evolution.commands.behaviour import BehaviourCommand
+
+    return BehaviourCommand(folder, generation=generation, rank=rank).run()
+
+
+def observe_classes(folder: str) -> int:
+    """`wordarm behaviour --classes` of a run, in a process of its own, without its figures."""
+    from evolution.commands.behaviour import BehaviourCommand
+
+    return BehaviourCommand(folder, classes=True, figures=False).run()

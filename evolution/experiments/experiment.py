@@ -10,9 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from arm2d import Condition, Readings
-from evolution.agents.postevaluation import progress
 from evolution.runs.folder import CONFIG, RunFolder
-from evolution.runs.storage import DamagedFileError
 
 
 @dataclass(frozen=True)
@@ -52,40 +50,11 @@ class Experiment:
         return self.all_runs[0].config.readings
 
 
-@dataclass(frozen=True)
-class RunState:
-    """How far a run has come.
-
-    Attributes:
-        run: The run.
-        generations: How many are in finished parts.
-        evaluated: Parts post-evaluated, of `to_evaluate`.
-        to_evaluate: Parts to be post-evaluated.
-        damage: What is wrong with it, or nothing.
-    """
-
-    run: RunFolder
-    generations: int
-    evaluated: int
-    to_evaluate: int
-    damage: str = ""
-
-    @property
-    def finished(self) -> bool:
-        """Whether evolution is over."""
-        return self.generations >= self.run.config.settings.generations
-
-    @property
-    def complete(self) -> bool:
-        """Whether it can be analysed whole."""
-        return self.finished and self.evaluated == self.to_evaluate and not self.damage
-
-
 def open_experiment(path: Path | str) -> Experiment:
     """The experiment in a folder; a single run's folder is an experiment of one.
 
     Raises:
-        ValueError: If there is no readable run in it, or its runs took place in different worlds.
+        ValueError: If there is no readable run in it, or its runs took place under different readings.
     """
     path = Path(path)
     folders = (
@@ -102,10 +71,10 @@ def open_experiment(path: Path | str) -> Experiment:
             "give such a folder, or start one with: wordarm reproduce"
         )
     runs, unreadable = _opened(folders)
-    worlds = {run.config.readings for run in runs}
-    if len(worlds) > 1:
+    readings = {run.config.readings for run in runs}
+    if len(readings) > 1:
         raise ValueError(
-            f"the runs in {path} took place under {len(worlds)} different readings; analyse them apart"
+            f"the runs in {path} took place under {len(readings)} different readings; analyse them apart"
         )
     by_condition = {c: tuple(run for run in runs if run.config.condition is c) for c in Condition}
     return Experiment(path, {c: runs for c, runs in by_condition.items() if runs}, tuple(unreadable))
@@ -126,13 +95,3 @@ def _opened(folders: Iterable[Path]) -> tuple[list[RunFolder], list[str]]:
     if not runs:
         raise ValueError(unreadable[0])
     return sorted(runs, key=lambda run: run.config.seed), unreadable
-
-
-def state_of(run: RunFolder) -> RunState:
-    """How far a run has come, damage included."""
-    evaluated, to_evaluate = progress(run)
-    try:
-        spans = run.finished_spans()
-        return RunState(run, spans[-1].stop if spans else 0, evaluated, to_evaluate)
-    except DamagedFileError as error:
-        return RunState(run, 0, evaluated, to_evaluate, str(error))

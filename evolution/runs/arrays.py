@@ -10,6 +10,8 @@ import io
 import math
 import zipfile
 import zlib
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -33,6 +35,25 @@ class UnreadableError(ValueError):
     """Bytes that are no arrays, or more than anyone wants."""
 
 
+def read_genotype_file(path: Path) -> Mapping[str, NDArray]:
+    """The named arrays of an .npz, or the only one of an .npy as "genotypes"; not yet held against anything.
+
+    Raises:
+        ValueError: If it is neither, or too large.
+        OSError: If it cannot be read.
+    """
+    refusal = f"{path} is not a genotype file: give an .npz with an array genotypes [P, 84], or an .npy"
+    if path.stat().st_size > LARGEST_CONTENT:
+        raise ValueError(f"{refusal}; this file is larger than {LARGEST_CONTENT // 2**20} MB")
+    data = path.read_bytes()
+    try:
+        if zipfile.is_zipfile(io.BytesIO(data)):
+            return unpack_archive(data)
+        return {"genotypes": unpack_array(data)}
+    except UnreadableError as error:
+        raise ValueError(f"{refusal} ({error})") from None
+
+
 def unpack_archive(data: bytes) -> dict[str, NDArray]:
     """The named arrays of an .npz.
 
@@ -43,8 +64,9 @@ def unpack_archive(data: bytes) -> dict[str, NDArray]:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             members = archive.infolist()
             _check_members(members)
-            # A member never gives more bytes than its size, which was added up above.
-            return {each.filename.removesuffix(ENDING): unpack_array(archive.read(each)) for each in members}
+            return {
+                each.filename.removesuffix(ENDING): unpack_array(_content(archive, each)) for each in members
+            }
     except UnreadableError:
         raise
     # What a broken or foreign archive brings about in the reader, encryption included.
@@ -70,6 +92,8 @@ def unpack_array(data: bytes) -> NDArray:
     shape, by_columns, dtype = _header(stream)
     if dtype.hasobject or dtype.kind not in KINDS:
         raise UnreadableError(f"it holds {dtype}, not numbers or text")
+    if not dtype.itemsize:
+        raise UnreadableError("it holds items of 0 bytes, of which any number has no size")
     room = len(data) - stream.tell()
     if any(n < 0 for n in shape) or math.prod(shape) * dtype.itemsize != room:
         raise UnreadableError(f"its header tells of {_shown(shape)} of {dtype}, but {room} bytes follow")
@@ -81,6 +105,12 @@ def unpack_array(data: bytes) -> NDArray:
     if dtype.kind == "U" and not _is_text(array):
         raise UnreadableError("it holds text with characters that do not exist")
     return array
+
+
+def _content(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> bytes:
+    """What a member holds; asked for so many bytes, the reader swells it no further than it tells of."""
+    with archive.open(member) as file:
+        return file.read(member.file_size)
 
 
 def _check_members(members: list[zipfile.ZipInfo]) -> None:

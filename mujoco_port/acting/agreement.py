@@ -8,9 +8,11 @@ from __future__ import annotations
 import csv
 import hashlib
 import multiprocessing
+import os
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 from typing import Any, Final, Literal
@@ -28,6 +30,7 @@ AREAS: Final = ("right", "left")
 MARK: Final = "# "
 # Whose code decides what becomes of a trial in either world.
 PACKAGES: Final = ("arm2d", "models", "mujoco_port")
+SAFE_PATH: Final = "PYTHONSAFEPATH"
 
 
 @dataclass(frozen=True)
@@ -120,7 +123,8 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
             writer.writerow(field.name for field in fields(Outcome))
         # Spawned, not forked: a forked child would share the parent's state of drawing and linear algebra.
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(processes, context, initializer=_move_in, initargs=(robot,)) as pool:
+        pool = ProcessPoolExecutor(processes, context, initializer=_move_in, initargs=(robot,))
+        with _current_folder_is_no_library(), pool:
             try:
                 for outcome in pool.map(carry_out_job, left):
                     writer.writerow(astuple(outcome))
@@ -133,6 +137,20 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
                 ) from None
             finally:
                 pool.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def _current_folder_is_no_library() -> Iterator[None]:
+    """While open, a Python that is started imports nothing from where it is started."""
+    before = os.environ.get(SAFE_PATH)
+    os.environ[SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[SAFE_PATH]
+        else:
+            os.environ[SAFE_PATH] = before
 
 
 def fingerprint(listed: Sequence[Job], robot: str) -> str:

@@ -1,8 +1,14 @@
 """Whatever a file, a table or a text holds: it is understood, or refused by a ValueError."""
 
 import contextlib
+import io
+import struct
+import tracemalloc
+import zipfile
 from pathlib import Path
 
+import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -94,3 +100,27 @@ def depth(value):
     if isinstance(value, dict):
         return 1 + max(map(depth, value.values()), default=0)
     return 1 + max(map(depth, value), default=0) if isinstance(value, list) else 0
+
+
+def test_an_archive_that_lies_about_its_size_is_read_no_further_than_it_says():
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("genotypes.npy", bytes(50_000_000))
+    data = bytearray(buffer.getvalue())
+    struct.pack_into("<I", data, data.rindex(b"PK\x01\x02") + 24, 1000)  # its uncompressed size
+    tracemalloc.start()
+    try:
+        with pytest.raises(UnreadableError, match=r"Bad CRC-32 for file 'genotypes\.npy'"):
+            unpack_archive(bytes(data))
+        assert tracemalloc.get_traced_memory()[1] < 2_000_000
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("kind", ["<U0", "<f8"])
+def test_items_without_size_are_refused_before_any_is_made(kind):
+    buffer = io.BytesIO()
+    header = {"descr": kind, "fortran_order": False, "shape": (10**9,)}
+    np.lib.format.write_array_header_1_0(buffer, header)
+    with pytest.raises(UnreadableError, match=r"items of 0 bytes|but 0 bytes follow"):
+        unpack_array(buffer.getvalue())
