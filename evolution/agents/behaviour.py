@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d import Condition, Instruction, Readings, TrialRecord, Trials, decode, draw_trials, record_trial
 from arm2d.arithmetic import sigmoid
 from arm2d.constants import MAX_STEPS, N_INTER
+from arm2d.geometry import in_view
 from arm2d.records import brief
-from arm2d.view import in_view
 from evolution.search.randomness import Purpose, generator
 
 TRIALS_PER_AREA: Final = 20

@@ -21,8 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
+from arm2d.cache import sources_digest
 from arm2d.records import brief
-from arm2d.sources import sources_digest
 from models.robots import get_robot
 
 Loop = Literal["open", "delayed", "geometric", "camera"]

@@ -216,6 +216,8 @@ def test_films_beside_the_runs_are_linked(results, experiment):
     film = experiment / "with-ignore" / "seed-0001" / "videos" / "champion-touch-green.mp4"
     film.parent.mkdir()
     film.touch()
+    for leftover in (".champion-touch-green.unfinished.mp4", ".champion-touch-green.mp4.0a1b2c3d.unfinished"):
+        (film.parent / leftover).touch()  # of a process that was killed
     text = render(results, experiment.parent)
     shutil.rmtree(film.parent)
     place = f"{experiment.name}/with-ignore/seed-0001/videos/champion-touch-green.mp4"

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from arm2d import Instruction, Networks, Readings, Trials, draw_trials, encode, record_trial
+from arm2d.geometry import camera_offsets
 from arm2d.reference import sense
-from arm2d.view import camera_offsets
 from evolution.runs.sources import find_source
 from mujoco_port.acting.camera import CameraEyes
 from mujoco_port.acting.closed_loop import felt
