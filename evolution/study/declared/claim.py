@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -189,7 +189,7 @@ def _by_runs(kind: str, groups: Sequence[Sequence[MeasuredRun]]) -> Answer:
 
     counted = [(sum(run.counts[kind] > 0 for run in group), len(group)) for group in groups]
     (k1, n1), (k2, n2) = counted
-    p = fisher_exact([[k1, n1 - k1], [k2, n2 - k2]]).pvalue  # pyright: ignore[reportAttributeAccessIssue]
+    p: Any = fisher_exact([[k1, n1 - k1], [k2, n2 - k2]])[1]
     difference = Estimate((k1 / n1) - (k2 / n2), *proportions_interval(*counted))
     return Answer(f"runs with {kind} agents", (n1, n2), (k1 / n1, k2 / n2), difference, float(p))
 

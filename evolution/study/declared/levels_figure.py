@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Final
 
 import matplotlib as mpl
@@ -43,10 +43,20 @@ def levels_figure(models: Mapping[Condition, Sequence[Model]], title: str) -> Fi
         for label, (_, level, _) in zip(panels[0].get_yticklabels(), rows, strict=True):
             label.set_fontweight("bold" if level == 0 else "normal")
         panels[0].set_ylim(rows[-1][2] + 0.7, -0.7)
-        handles = [Line2D([], [], color=COLOURS[c], marker="o", ms=4, label=TITLES[c]) for c in models]
-        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), frameon=False)
+        figure.legend(handles=_legend(models), loc="outside lower center", ncols=5, frameon=False, fontsize=8)
         figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
     return figure
+
+
+def _legend(conditions: Iterable[Condition]) -> list[Line2D]:
+    """What colours and marks mean."""
+    dot = {"marker": "o", "ms": 4}
+    return [
+        *(Line2D([], [], color=COLOURS[c], **dot, label=TITLES[c]) for c in conditions),
+        Line2D([], [], color=INK, ls="", **dot, label="the factor matters: p < 0.05 after Holm"),
+        Line2D([], [], color=INK, ls="", **dot, mfc="white", label="not shown to matter"),
+        Line2D([], [], color=INK, lw=1.1, ls=(0, (4, 3)), label="the paper"),
+    ]
 
 
 def _rows() -> list[tuple[int, int, float]]:

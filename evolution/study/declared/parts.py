@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Final
 
 from arm2d import Condition, Readings
@@ -38,6 +39,7 @@ class DeclaredPart:
     whole: bool = False
 
 
+@cache
 def factorial(generations: int = GENERATIONS) -> DeclaredPart:
     """300 worlds With-Indicate; the first 150 of them, with the same seeds, With-Ignore as well.
 

@@ -118,6 +118,7 @@ def test_interval_of_a_difference_of_proportions_is_newcombe_s():
 INDICATE, IGNORE = Condition.WITH_INDICATE, Condition.WITH_IGNORE
 
 
+@pytest.mark.slow
 def test_claim_that_is_so_is_supported_and_its_contrary_contradicted():
     worlds = Estimate(0.01, -0.02, 0.04)
     rng = np.random.default_rng(4)

@@ -95,6 +95,7 @@ def test_interaction_that_is_there_enters_and_others_do_not(plateau):
     assert len(plateau.tried) == 3
 
 
+@pytest.mark.slow
 def test_intervals_hold_what_they_promise():
     """Of twenty 95 % intervals of an effect at most three miss it, whether it is 0.3 or none."""
     missed = {"mutation": 0, "crossover": 0}
@@ -220,6 +221,7 @@ def test_tables_say_what_the_regressions_say(models, indicate):
     assert told["runs held back"] == "60"
 
 
+@pytest.mark.slow
 def test_results_are_written_as_far_as_there_are_runs(runs, tmp_path, capsys):
     paths, notes = write_factorial(runs, tmp_path / "all")
     assert not notes
