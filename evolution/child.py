@@ -55,7 +55,8 @@ def resolve(text: str) -> Function:
         ValueError: If it is none of ours.
     """
     module, _, name = text.partition(":")
-    function = getattr(import_module(module), name, None) if module.split(".")[0] == "evolution" else None
+    ours = module.split(".")[0] == "evolution"
+    function: Any = getattr(import_module(module), name, None) if ours else None
     if not callable(function):
         raise ValueError(f"{text!r} is no function of ours; expected evolution.<module>:<function>")
     return function
