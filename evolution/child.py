@@ -56,8 +56,8 @@ def resolve(text: str) -> Function:
     """
     module, _, name = text.partition(":")
     ours = module.split(".")[0] == "evolution"
-    function: Any = getattr(import_module(module), name, None) if ours else None
-    if not callable(function):
+    function: Function | None = getattr(import_module(module), name, None) if ours else None
+    if function is None or not callable(function):
         raise ValueError(f"{text!r} is no function of ours; expected evolution.<module>:<function>")
     return function
 
