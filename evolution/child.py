@@ -59,7 +59,7 @@ def resolve(text: str) -> Function:
     function: Function | None = getattr(import_module(module), name, None) if ours else None
     if function is None or not callable(function):
         raise ValueError(f"{text!r} is no function of ours; expected evolution.<module>:<function>")
-    return function
+    return function  # pyright: ignore[reportReturnType] - an exit code, or its caller finds out
 
 
 def perform(function: str, arguments: Mapping[str, Any]) -> int:

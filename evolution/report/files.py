@@ -23,8 +23,9 @@ from evolution.results.records import ConditionResults, Results
 from evolution.runs.storage import make_folder, write_arrays, write_atomically
 
 
-def write_results(results: Results, folder: Path) -> list[Path]:
+def write_results(results: Results, folder: Path | str) -> list[Path]:
     """Write everything into a folder; the paths, tables first."""
+    folder = Path(folder)
     make_folder(folder)
     tables = {
         "table-ii.csv": table_ii_rows(results),

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.agents.postevaluation import PostEvaluation, read_post_evaluation
 from evolution.agents.solving import solved_trials
 from evolution.agents.transition_test import TransitionTest, read_transition_test
@@ -39,6 +40,8 @@ class TestedRun:
     longest_stay: int
     evaluation: PostEvaluation
     transitions: TransitionTest
+
+    __repr__ = brief
 
 
 def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[str]]:

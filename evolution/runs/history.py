@@ -14,11 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
+from arm2d.records import brief
+from evolution.runs.storage import DamagedFileError
 from evolution.search.algorithm import mean_in_order, rank
 from evolution.search.config import RunConfig
 from evolution.search.population import Population
 from evolution.search.settings import N_BEST
-from evolution.runs.storage import DamagedFileError
 
 # F1, F2 and F3 are at most 1 each.
 LARGEST_FITNESS: Final = 3.0
@@ -47,6 +48,8 @@ class History:
     mean: NDArray[np.float64]
     median: NDArray[np.float64]
     worst: NDArray[np.float64]
+
+    __repr__ = brief
 
     @classmethod
     def join(cls, histories: Iterable[History]) -> History:

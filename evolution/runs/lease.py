@@ -98,7 +98,7 @@ def leased(folder: Path, *, lock_held: bool, on_loss: Callable[[str], None] | No
 def held_elsewhere(folder: Path) -> bool:
     """Whether a process of another machine seems to be at work; asked without writing anything."""
     holder, touched = _read(folder / LEASE)
-    # Nothing being written, the server's clock is unknown; a date far from ours on either side is no sign of life.
+    # Nothing being written, the clock of the server is unknown; a date far from ours is no sign of life.
     return holder is not None and holder.kernel != this_kernel() and abs(time.time() - touched) < LAPSE
 
 

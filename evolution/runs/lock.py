@@ -1,7 +1,7 @@
 """One process at a time works on a run, of however many machines; it says who it is and how far it has come.
 
-    lock    4711              the process
-            1234 2.103451     generations scored, and the best fitness of the last; for whoever watches
+lock    4711              the process
+1234 2.103451     generations scored, and the best fitness of the last; for whoever watches
 """
 
 from __future__ import annotations

@@ -85,7 +85,7 @@ def test_stopped_it_ends_its_workers_and_goes_on_with_the_same_command(reproduce
 
 @pytest.mark.slow
 def test_tortured_it_ends_with_the_bits_of_the_undisturbed_one(reproduced, tmp_path):
-    """The short form of `wordarm torture`: refused, killed, damaged, repaired, compared."""
+    """The short form of `wordarm doctor --torture`: refused, killed, damaged, repaired, compared."""
     small = Settings(population=10, elites=2, parents=5, generations=230)
     tally = torture(Torture(tmp_path, kills=8, settings=small), print, reproduced[0])
     assert tally.kills == 8
@@ -138,7 +138,7 @@ def test_a_preset_is_the_start_of_its_readings():
         (["--generations=0"], "setting generations = 0 must lie in [1, 1000000]"),
         (["--readings.object-radius=20"], "reading object_radius = 20 must lie in"),
         (["--preset=mine"], "unknown preset of readings 'mine'; there are default, printed"),
-        (["--output={file}"], "File exists; choose another folder"),
+        (["--output={file}"], "cannot be made: it is a file; choose another folder"),
     ],
 )
 def test_bad_input_gets_one_sentence_before_anything_starts(arguments, sentence, tmp_path, capsys):
@@ -193,7 +193,7 @@ def test_a_damaged_part_is_told_as_the_state_of_its_run(run_copy):
     (run_copy / "parts" / "gen-000200-000229.npz").write_bytes(b"nothing")
     standing = standing_of(run_copy, config)
     assert standing.state == "damaged"
-    assert "wordarm repair" in standing.damage
+    assert "--repair" in standing.damage
 
 
 def test_what_is_left_is_shared_by_the_processes():
