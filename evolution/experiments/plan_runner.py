@@ -217,8 +217,11 @@ def _group_text(runs: Sequence[Standing], pace: Pace) -> str:
     """The runs of a variant: how many, how long, and what is done of them."""
     left = [each for each in runs if not each.done and not each.damage]
     damaged = sum(bool(each.damage) for each in runs)
-    counts = [f"{len(runs)} x {runs[0].config.settings.generations} generations"]
-    counts += [
-        f"{n} {what}" for n, what in ((len(runs) - len(left) - damaged, "done"), (damaged, "damaged")) if n
-    ]
-    return ", ".join([*counts, *([f"{duration(sum(map(pace.left, left)))} of CPU"] if left else [])])
+    parts = [f"{len(runs)} x {runs[0].config.settings.generations} generations"]
+    if done := len(runs) - len(left) - damaged:
+        parts.append(f"{done} done")
+    if damaged:
+        parts.append(f"{damaged} damaged")
+    if left:
+        parts.append(f"about {duration(sum(map(pace.left, left)))} in one process")
+    return ", ".join(parts)
