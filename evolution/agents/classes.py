@@ -14,11 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evolution.agents.behaviour import record_behaviour
-from evolution.agents.events import WINDOWS, shares_by_event
 from evolution.agents.lesions import LESIONS, lesion_scores
 from evolution.agents.postevaluation import N_INSTRUCTIONS, late_history, read_post_evaluation
 from evolution.agents.subtasks import AgentClass, classify
-from evolution.agents.variance import VarianceShares, bin_times
+from evolution.agents.variance import WINDOWS, VarianceShares, bin_times, shares_by_event
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array
 from evolution.runs.storage import DamagedFileError, make_folder

@@ -21,6 +21,19 @@ LEAST_TRIALS: Final = 5
 # Below this total variance (outputs lie in [0, 1]) shares would be those of rounding errors.
 LEAST_VARIANCE: Final = 1e-9
 
+# The events of a trial at which neurons are looked at.
+START: Final = "trial start"
+SIGHT: Final = "first sight of the target"
+TOUCH: Final = "first touch of the target"
+
+# Stretches that are summed up in one number: an event and two times from it [s]. Chosen: the last second
+# of the search; the time from sight to touch, in which S2 is stretched; the first second of contact.
+WINDOWS: Final = {
+    "the second before first sight": (SIGHT, -1.0, 0.0),
+    "0.5 to 3 s after first sight": (SIGHT, 0.5, 3.0),
+    "the second after first touch": (TOUCH, 0.1, 1.0),
+}
+
 
 @dataclass(frozen=True)
 class VarianceShares:
@@ -55,6 +68,17 @@ class VarianceShares:
     def arrays(self) -> dict[str, NDArray]:
         """Its arrays by name, ready for an .npz."""
         return {each.name: getattr(self, each.name) for each in fields(self)}
+
+
+def events_of(behaviour: Behaviour) -> dict[str, NDArray[np.int64]]:
+    """Rows of the trials [T] at which each event happens, or -1."""
+    start = np.zeros(len(behaviour), np.int64)
+    return {START: start, SIGHT: behaviour.first_sight, TOUCH: behaviour.first_touch}
+
+
+def shares_by_event(behaviour: Behaviour) -> dict[str, VarianceShares]:
+    """Which word the activity follows, aligned at each event."""
+    return {event: variance_shares(behaviour, rows) for event, rows in events_of(behaviour).items()}
 
 
 def bin_times() -> NDArray[np.float64]:

@@ -30,7 +30,7 @@ class Compare:
 
         from evolution.experiments.experiment import open_experiment
         from evolution.figures.compare import compare_figure
-        from evolution.figures.run import save_figure
+        from evolution.figures.page import save_figure
         from evolution.report.rows import to_csv
         from evolution.results.analysis import analyse
         from evolution.results.key_numbers import comparison_rows, departures

@@ -53,7 +53,8 @@ class Evaluate(AgentCommand):
 
 def _write(source: Source, result: Evaluation, folder: Path) -> list[Path]:
     """Write figures and tables; their paths."""
-    from evolution.figures.run import heat_map, save_figure
+    from evolution.figures.page import save_figure
+    from evolution.figures.run import heat_map
     from evolution.report.evaluation import to_csv, to_json
     from evolution.runs.storage import make_folder, write_atomically
 

@@ -37,7 +37,8 @@ class Plot:
 
 def write_fitness_curve(run_folder: RunFolder, output: Path) -> list[Path]:
     """Write fitness.png and fitness.svg; their paths."""
-    from evolution.figures.run import fitness_curve, save_figure
+    from evolution.figures.page import save_figure
+    from evolution.figures.run import fitness_curve
     from evolution.runs.recorded import recorded_history
 
     history = recorded_history(run_folder)

@@ -22,7 +22,7 @@ class Ship:
         """Choose, write and print."""
         from evolution.experiments.experiment import open_experiment
         from evolution.results.analysis import analyse
-        from evolution.results.shipping import ship
+        from evolution.results.notable import ship
 
         for path in ship(analyse(open_experiment(self.experiment)), self.output):
             print(path)

@@ -51,7 +51,7 @@ class Workspace:
         return self._search(robot) if self.search else self._certify(robot)
 
     def _certify(self, robot: Robot) -> int:
-        from evolution.figures.run import save_figure
+        from evolution.figures.page import save_figure
         from evolution.runs.storage import make_folder, write_arrays
         from mujoco_port.reach.certificate import certify
         from mujoco_port.reach.certificate_figure import draw_certificate

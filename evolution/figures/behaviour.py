@@ -17,8 +17,7 @@ from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, DT
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.agents.behaviour import NEVER, Behaviour
 from evolution.agents.lesions import LESIONS, LesionScores
-from evolution.figures.run import SUCCESS_MAP
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP, head
 
 FAILED: Final = "#A8A49B"
 DASHES: Final = (0, (4, 2.5))
@@ -161,13 +160,6 @@ def draw_lesions(axes: Axes, scores: LesionScores) -> None:
             text, (middle, 0), xytext=(0, 48), textcoords="offset points", ha="center", fontsize=9,
             fontweight="bold", annotation_clip=False,
         )  # fmt: skip
-
-
-def head(figure: Figure, title: str, origin: str) -> None:
-    """Title and provenance at the top of a page, at the same distance from its edge on every page."""
-    height = figure.get_size_inches()[1]
-    figure.text(0.015, 1 - 0.32 / height, title, fontsize=15, fontweight="bold")
-    figure.text(0.015, 1 - 0.54 / height, origin, fontsize=9, color=FAINT)
 
 
 def _frame(axes: Axes, instruction: Instruction) -> None:

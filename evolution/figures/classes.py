@@ -15,12 +15,12 @@ from matplotlib.patches import Patch
 from arm2d import Condition
 from arm2d.drawing import INK
 from evolution.agents.classes import PARTS
-from evolution.agents.events import WINDOWS
 from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass
+from evolution.agents.variance import WINDOWS
 from evolution.figures.generalisers import CLASS_COLOURS
 from evolution.figures.neurons import SHARE_COLOURS, SHARE_LABELS
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, STYLE
 from evolution.results.classes import ClassBehaviour
 from evolution.results.wording import TITLES
 

@@ -15,7 +15,7 @@ from arm2d import Condition
 from arm2d.drawing import INK
 from evolution.agents.subtasks import SUBTASKS
 from evolution.figures.classes import SHORT
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, STYLE
 from evolution.results.key_numbers import (
     AT_LIMIT,
     PLATEAU,

@@ -14,8 +14,8 @@ from arm2d.constants import DT
 from evolution.agents.behaviour import record_behaviour
 from evolution.agents.classes import Sampling
 from evolution.agents.subtasks import AgentClass
-from evolution.figures.behaviour import draw_alpha, draw_beta, head, trajectory_handles
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.behaviour import draw_alpha, draw_beta, trajectory_handles
+from evolution.figures.page import FAINT, STYLE, head
 from evolution.results.classes import ClassBehaviour
 from evolution.results.wording import TITLES
 from evolution.runs.recorded import recorded_generation

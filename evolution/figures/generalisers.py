@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from arm2d.drawing import INK
 from evolution.agents.subtasks import AgentClass, classify
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, STYLE
 from evolution.results.generalisers import Generalisers
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES

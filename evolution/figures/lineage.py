@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d import NON_EXPERIENCED
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.agents.lineage_scores import IN_A_ROW, NEVER, LineageScores, Skills
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, STYLE, head
 
 ROW_HEIGHT: Final = 0.36  # [in]
 GROUP_GAP: Final = 0.34  # [in]
@@ -57,8 +57,7 @@ def lineage_figure(scores: LineageScores, origin: str) -> Figure:
     height = HEAD + FOOT + n_rows * ROW_HEIGHT + len(groups) * GROUP_GAP
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(WIDTH, height))
-        figure.text(0.02, 1 - 0.33 / height, "The agent's line of ancestors", fontsize=15, fontweight="bold")
-        figure.text(0.02, 1 - 0.55 / height, origin, fontsize=9, color=FAINT)
+        head(figure, "The agent's line of ancestors", origin, left=0.02)
         top = height - HEAD
         for title, rows in groups:
             figure.text(0.02, (top + 0.05) / height, title, fontsize=9.5, fontweight="bold", va="bottom")

@@ -16,10 +16,8 @@ from arm2d import ObjectWord
 from arm2d.constants import N_INTER
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.agents.behaviour import Behaviour
-from evolution.agents.events import events_of
-from evolution.agents.variance import VarianceShares, bin_times, mean_by_instruction
-from evolution.figures.behaviour import head
-from evolution.figures.style import FAINT, STYLE
+from evolution.agents.variance import VarianceShares, bin_times, events_of, mean_by_instruction
+from evolution.figures.page import FAINT, STYLE, head
 
 ACTION_STYLES: Final = ("-", (0, (5, 1.6)), (0, (1.2, 1.4)))
 # Words are no objects: their colours stay clear of blue, green and red.

@@ -19,8 +19,8 @@ from arm2d.drawing import INK
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS
 from evolution.agents.transitions import Transition, action_transitions, object_transitions
 from evolution.figures.generalisers import CLASS_COLOURS, generalisers_figure
+from evolution.figures.page import FAINT, STYLE
 from evolution.figures.run import running_median
-from evolution.figures.style import FAINT, STYLE
 from evolution.results import published
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES

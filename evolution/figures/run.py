@@ -1,33 +1,24 @@
-"""Figures: drawing takes data and axes; `save_figure` writes PNG and SVG."""
+"""One run, drawn: what its champion makes of the nine instructions, and its fitness over the generations."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Final
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from arm2d import ActionWord, Condition, ObjectWord
 from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.figures.page import png_bytes, svg_bytes
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP, head
 from evolution.runs.history import History
-from evolution.runs.storage import write_atomically
 from evolution.search.evaluation import Evaluation
 
 BEST_COLOUR: Final = "#1B4F72"
 MEAN_COLOUR: Final = "#8FB3CC"
-# Paper white at 0 % to deep teal at 100 %, lightness falling evenly.
-SUCCESS_COLOURS: Final = ("#F4F4F0", "#BBD6D2", "#5A9FA0", "#12545F")
-SUCCESS_MAP: Final = LinearSegmentedColormap.from_list(
-    "success", ["#F7F7F4", "#BBD6D2", "#5A9FA0", "#12545F"]
-)
 
 
 def heat_map(evaluation: Evaluation, origin: str) -> Figure:
@@ -36,16 +27,10 @@ def heat_map(evaluation: Evaluation, origin: str) -> Figure:
         figure = Figure(figsize=(6.0, 5.7))
         axes = figure.add_axes((0.175, 0.075, 0.8, 0.74))
         draw_heat_map(axes, evaluation)
-        _head(figure, 0.175, "Instructions carried out", origin)
+        head(figure, "Instructions carried out", origin, left=0.175)
         note = f"{evaluation.trials} trials each, half of them from either start area"
         figure.text(0.175, 0.025, note, fontsize=8.5, color=FAINT)
     return figure
-
-
-def _head(figure: Figure, left: float, title: str, origin: str) -> None:
-    """Title and provenance at the top of a page."""
-    figure.text(left, 0.945, title, fontsize=15, fontweight="bold")
-    figure.text(left, 0.905, origin, fontsize=9, color=FAINT)
 
 
 def draw_heat_map(axes: Axes, evaluation: Evaluation) -> None:
@@ -86,7 +71,7 @@ def fitness_curve(history: History, condition: Condition, origin: str) -> Figure
         figure = Figure(figsize=(7.6, 4.6))
         axes = figure.add_axes((0.085, 0.125, 0.89, 0.735))
         draw_fitness_curve(axes, history, condition)
-        _head(figure, 0.085, "Fitness over the generations", origin)
+        head(figure, "Fitness over the generations", origin, left=0.085)
     return figure
 
 
@@ -128,16 +113,3 @@ def running_median(values: NDArray[np.float64], width: int = 51) -> NDArray[np.f
     half = width // 2
     padded = np.pad(values, half, constant_values=np.nan)
     return np.nanmedian(np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1), axis=-1)
-
-
-def save_figure(figure: Figure, stem: Path) -> list[Path]:
-    """Write a figure as PNG and SVG beside each other; both paths. The SVG stays small, see `drawings`.
-
-    Raises:
-        OSError: If they cannot be written; then neither is left half-written.
-    """
-    paths = []
-    for suffix, data in (("png", png_bytes(figure)), ("svg", svg_bytes(figure))):
-        paths.append(stem.with_name(f"{stem.name}.{suffix}"))
-        write_atomically(paths[-1], data)
-    return paths

@@ -15,9 +15,8 @@ from arm2d import ObjectWord
 from arm2d.constants import N_INTER
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.agents.behaviour import NEVER, Behaviour
-from evolution.figures.behaviour import head
 from evolution.figures.neurons import object_handles
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, STYLE, head
 
 SHOWN_PER_AREA: Final = 3
 

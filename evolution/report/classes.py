@@ -12,7 +12,7 @@ from evolution.agents.classes import Observation, Sampling, read_observation
 from evolution.agents.subtasks import AgentClass
 from evolution.figures.classes import Behaviours, classes_figure
 from evolution.figures.fans import fans_figure
-from evolution.figures.run import save_figure
+from evolution.figures.page import save_figure
 from evolution.report.rows import to_csv
 from evolution.results.classes import ClassBehaviour, class_behaviours, class_rows, run_class_rows
 from evolution.results.records import Results

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from evolution.figures.page import save_figure
 from evolution.figures.paper import all_figures
-from evolution.figures.run import save_figure
 from evolution.report.rows import (
     generaliser_rows,
     genotype_rows,
@@ -18,8 +18,8 @@ from evolution.report.rows import (
     transition_rows,
 )
 from evolution.results.analysis import interval_of_mean
-from evolution.results.generaliser_text import generalisers_sentence
 from evolution.results.records import ConditionResults, Results
+from evolution.results.wording import generalisers_sentence
 from evolution.runs.storage import make_folder, write_arrays, write_atomically
 
 

@@ -24,8 +24,8 @@ from evolution.agents.postevaluation import TRIALS
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.experiments.stage_times import stage_times
 from evolution.experiments.standing import standing_of
+from evolution.figures.page import SUCCESS_MAP
 from evolution.figures.paper import all_figures
-from evolution.figures.run import SUCCESS_MAP
 from evolution.report.classes import behaviours_kept, class_figures
 from evolution.report.configuration import readings_rows, settings_rows, versions_rows
 from evolution.report.pictures import figure_uri, file_uri
@@ -33,10 +33,9 @@ from evolution.report.recordings import recordings_of
 from evolution.report.report_tables import category_tables, comparison_rows, departures_in_size, run_rows
 from evolution.report.sentences import result_sentences, standing_of_best
 from evolution.report.tables import main_lines
-from evolution.results.generaliser_text import generalisers_sentence
 from evolution.results.notable import Agent, best_agent
 from evolution.results.records import ConditionResults, Results
-from evolution.results.wording import TITLES
+from evolution.results.wording import TITLES, generalisers_sentence
 from evolution.runs.storage import make_folder, write_atomically
 
 TEMPLATE: Final = "template.html"

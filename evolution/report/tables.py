@@ -11,9 +11,8 @@ import numpy as np
 from arm2d import Condition
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.results import published
-from evolution.results.generaliser_text import longest_spell, rank_of_generalisers
 from evolution.results.records import ConditionResults, Results
-from evolution.results.wording import NOT_GIVEN, Line, of, percent
+from evolution.results.wording import NOT_GIVEN, Line, longest_spell, of, percent, rank_of_generalisers
 
 SUBTASK_WORDS: Final = MappingProxyType(
     {

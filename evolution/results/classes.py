@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition
 from evolution.agents.classes import CLASSES, PARTS, Observation, Sampling
-from evolution.agents.events import WINDOWS
 from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass
+from evolution.agents.variance import WINDOWS
 from evolution.results.statistics import mean_interval
 from evolution.runs.folder import RunFolder
 from evolution.search.randomness import Purpose, generator

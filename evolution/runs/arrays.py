@@ -10,6 +10,8 @@ import io
 import math
 import zipfile
 import zlib
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -81,6 +83,25 @@ def unpack_array(data: bytes) -> NDArray:
     if dtype.kind == "U" and not _is_text(array):
         raise UnreadableError("it holds text with characters that do not exist")
     return array
+
+
+def read_genotype_file(path: Path) -> Mapping[str, NDArray]:
+    """The named arrays of an .npz, or the only one of an .npy as "genotypes"; not yet held against anything.
+
+    Raises:
+        ValueError: If it is neither, or too large.
+        OSError: If it cannot be read.
+    """
+    refusal = f"{path} is not a genotype file: give an .npz with an array genotypes [P, 84], or an .npy"
+    if path.stat().st_size > LARGEST_CONTENT:
+        raise ValueError(f"{refusal}; this file is larger than {LARGEST_CONTENT // 2**20} MB")
+    data = path.read_bytes()
+    try:
+        if zipfile.is_zipfile(io.BytesIO(data)):
+            return unpack_archive(data)
+        return {"genotypes": unpack_array(data)}
+    except UnreadableError as error:
+        raise ValueError(f"{refusal} ({error})") from None
 
 
 def _check_members(members: list[zipfile.ZipInfo]) -> None:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from arm2d import Condition
 from arm2d.drawing import INK
 from evolution.agents.subtasks import SUBTASKS, AgentClass
-from evolution.figures.run import FAINT, STYLE, SUCCESS_MAP
+from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP
 from evolution.results import published
 from evolution.study.table import AREAS, VariantMeasures, interval
 

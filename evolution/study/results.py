@@ -13,8 +13,8 @@ from evolution.experiments.plan import LOGS, Plan
 from evolution.experiments.standing import Standing
 from evolution.experiments.warm_workers import WarmStart
 from evolution.experiments.workers import Ended, Job
+from evolution.figures.page import save_figure
 from evolution.figures.paper import TITLES
-from evolution.figures.run import save_figure
 from evolution.report.files import to_csv
 from evolution.runs.folder import RunFolder
 from evolution.runs.interrupt import StopRequest

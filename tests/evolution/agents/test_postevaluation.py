@@ -20,7 +20,7 @@ from evolution.cli import main, parse
 from evolution.experiments.experiment import open_experiment
 from evolution.figures.paper import all_figures
 from evolution.results.analysis import analyse
-from evolution.results.shipping import notable_agents, ship
+from evolution.results.notable import notable_agents, ship
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import evolve
 from evolution.runs.sources import find_source

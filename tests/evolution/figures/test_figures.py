@@ -7,6 +7,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from arm2d import Condition, Readings
+from evolution.figures.page import save_figure
 from evolution.figures.run import (
     draw_fitness_curve,
     draw_heat_map,
@@ -14,7 +15,6 @@ from evolution.figures.run import (
     heat_map,
     largest_fitness,
     running_median,
-    save_figure,
 )
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
