@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d import Condition, Instruction, Readings, TrialRecord, Trials, decode, draw_trials, record_trial
 from arm2d.arithmetic import sigmoid
 from arm2d.constants import MAX_STEPS, N_INTER, VIEW_HALF_WIDTH
+from evolution.agents.firsts import first_row
 from evolution.agents.lineage_scores import offsets
 from evolution.search.randomness import Purpose, generator
 
 TRIALS_PER_AREA: Final = 20
-NEVER: Final = -1
 # What the seeded draws are for; this stands in the place of a generation.
 RECORDED: Final = 2
 
@@ -124,11 +124,7 @@ def _events(record: TrialRecord) -> tuple[int, int]:
     """Rows of first sight and first touch of the target, or -1."""
     target = record.instruction.object
     seen = offsets(record.alpha, record.discs[:, target]) <= VIEW_HALF_WIDTH
-    return _first(seen), _first(record.contact[:, target] != 0)
-
-
-def _first(happened: NDArray[np.bool_]) -> int:
-    return int(happened.argmax()) if happened.any() else NEVER
+    return first_row(seen), first_row(record.contact[:, target] != 0)
 
 
 def _padded(rows: list[NDArray[np.float64]]) -> NDArray[np.float64]:

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from evolution.agents.behaviour import record_behaviour
 from evolution.agents.lesions import LESIONS, lesion_scores
-from evolution.agents.postevaluation import N_INSTRUCTIONS, late_history, read_post_evaluation
+from evolution.agents.parts import late_history
+from evolution.agents.postevaluation import N_INSTRUCTIONS, POST_EVALUATION
 from evolution.agents.subtasks import AgentClass, classify
 from evolution.agents.variance import WINDOWS, VarianceShares, bin_times, shares_by_event
 from evolution.runs.folder import RunFolder
@@ -91,7 +92,7 @@ def observe(run: RunFolder, sampling: Sampling = Sampling()) -> Observation:
     """
     if observation_path(run, sampling).exists():
         return read_observation(run, sampling)
-    evaluation = read_post_evaluation(run)
+    evaluation = POST_EVALUATION.read(run)
     by_class = classify(evaluation.agents, run.config.condition)
     members = np.stack([by_class[kind] for kind in CLASSES]).reshape(len(CLASSES), -1, N_BEST)
     genotypes = late_history(run).best_genotypes if members.any() else np.empty((*members.shape[1:], 84))

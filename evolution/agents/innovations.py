@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from evolution.agents.firsts import NEVER
 from evolution.agents.lineage import Lineage
-from evolution.agents.lineage_scores import NEVER, LineageScores
+from evolution.agents.lineage_scores import LineageScores
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,17 @@
 Action transition (a1 -> a2, object o): scores follow a2 on o. Object transition (o1 -> o2, action a):
 scores follow a on o1. Transitions whose scored instruction was never met are left out. An agent passes
 a test if every transition of it succeeds in more than 60 of 80 trials.
+
+Those of a run's late agents that belong to a class are tested, and the results kept beside the run. Axes:
+A agents, X transitions of a test.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import permutations
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -25,11 +30,18 @@ from arm2d import (
     draw_trials,
     run_trials,
 )
-from evolution.agents.postevaluation import TRIALS
+from evolution.agents.parts import LateTest, best_genotypes, joined
+from evolution.agents.postevaluation import POST_EVALUATION, TRIALS
+from evolution.agents.subtasks import AgentClass, classify
+from evolution.runs.folder import RunFolder
+from evolution.runs.history import check_array, check_range
 from evolution.search.evaluation import TRIALS_PER_AREA
+from evolution.search.randomness import Purpose, generator
+from evolution.search.settings import N_BEST
 
 # The change comes at one of so many steps, from the first after which the target is in view.
 CHANGE_STEPS: Final = 10
+CLASSES: Final = tuple(AgentClass)
 
 
 @dataclass(frozen=True)
@@ -48,6 +60,25 @@ class Transition:
 
     def __str__(self) -> str:
         return f"{self.before} → {self.after}"
+
+
+@dataclass(frozen=True)
+class TransitionTest:
+    """Successful trials, of 80, in every transition.
+
+    Attributes:
+        generations: [A] and
+        ranks: [A], which agents.
+        classes: [A], index into `CLASSES`.
+        action: [A, X], in the order of `action_transitions`.
+        object: [A, X], in the order of `object_transitions`.
+    """
+
+    generations: NDArray[np.int32]
+    ranks: NDArray[np.int8]
+    classes: NDArray[np.int8]
+    action: NDArray[np.int16]
+    object: NDArray[np.int16]
 
 
 def action_transitions(condition: Condition) -> tuple[Transition, ...]:
@@ -107,3 +138,54 @@ def transition_successes(
 def passes(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
     """Which agents [A] pass a test: more than 75 % in every transition of it."""
     return np.all(4 * successes > 3 * TRIALS, axis=1)
+
+
+def _test(run: RunFolder, span: range) -> TransitionTest:
+    """The classed agents of some generations; those of a generation meet the same trials."""
+    condition, readings = run.config.condition, run.config.readings
+    actions, objects = action_transitions(condition), object_transitions(condition)
+    evaluated = POST_EVALUATION.read_part(run, span).successes
+    tests = []
+    for (generation, genotypes), successes in zip(best_genotypes(run, span), evaluated, strict=True):
+        classes = np.full(len(genotypes), -1, np.int8)
+        for index, members in enumerate(classify(successes, condition).values()):
+            classes[members] = index
+        ranks = np.flatnonzero(classes >= 0)
+        rng = generator(run.config.seed, Purpose.TRANSITIONS, generation)
+        test = TransitionTest(
+            generations=np.full(len(ranks), generation, np.int32),
+            ranks=ranks.astype(np.int8),
+            classes=classes[ranks],
+            action=transition_successes(genotypes[ranks], actions, readings, rng).astype(np.int16),
+            object=transition_successes(genotypes[ranks], objects, readings, rng).astype(np.int16),
+        )
+        tests.append(test)
+    return joined(TransitionTest, tests)
+
+
+def _check(path: Path, arrays: Mapping[str, NDArray], run: RunFolder, span: range) -> None:
+    """Refuse arrays that no transition test gives."""
+    condition = run.config.condition
+    n = np.size(arrays.get("generations", ()))
+    shapes = {
+        "generations": ((n,), np.int32),
+        "ranks": ((n,), np.int8),
+        "classes": ((n,), np.int8),
+        "action": ((n, len(action_transitions(condition))), np.int16),
+        "object": ((n, len(object_transitions(condition))), np.int16),
+    }
+    for name, (shape, dtype) in shapes.items():
+        check_array(path, arrays, name, shape, np.dtype(dtype))
+    check_range(path, arrays, "generations", span.start, span.stop - 1)
+    check_range(path, arrays, "ranks", 0, N_BEST - 1)
+    check_range(path, arrays, "classes", 0, len(CLASSES) - 1)
+    for name in ("action", "object"):
+        check_range(path, arrays, name, 0, TRIALS)
+
+
+TRANSITION_TEST: Final = LateTest("transitions", TransitionTest, _test, _check)
+
+
+def run_transition_test(run: RunFolder, report: Callable[[int, int], None] | None = None) -> TransitionTest:
+    """Test a post-evaluated run, or go on where it was left; see `LateTest.complete`."""
+    return TRANSITION_TEST.complete(run, report)

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import DT
-from evolution.agents.behaviour import NEVER, Behaviour
+from evolution.agents.behaviour import Behaviour
+from evolution.agents.firsts import NEVER
 
 # Bins from so many steps before an event to so many after it.
 BEFORE, AFTER = 30, 60

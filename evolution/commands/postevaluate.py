@@ -24,7 +24,7 @@ class PostEvaluate:
 
         from evolution.agents.postevaluation import post_evaluate
         from evolution.agents.solving import solved_trials
-        from evolution.agents.transition_test import run_transition_test
+        from evolution.agents.transitions import run_transition_test
         from evolution.experiments.experiment import open_experiment, state_of
         from evolution.runs.lock import locked
 

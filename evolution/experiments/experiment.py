@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from arm2d import Condition, Readings
-from evolution.agents.postevaluation import progress
+from evolution.agents.postevaluation import POST_EVALUATION
 from evolution.runs.folder import CONFIG, RunFolder
 from evolution.runs.storage import DamagedFileError
 
@@ -129,7 +129,7 @@ def _opened(folders: Iterable[Path]) -> tuple[list[RunFolder], list[str]]:
 
 def state_of(run: RunFolder) -> RunState:
     """How far a run has come, damage included."""
-    evaluated, to_evaluate = progress(run)
+    evaluated, to_evaluate = POST_EVALUATION.progress(run)
     try:
         spans = run.finished_spans()
         return RunState(run, spans[-1].stop if spans else 0, evaluated, to_evaluate)

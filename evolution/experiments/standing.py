@@ -13,9 +13,10 @@ from pathlib import Path
 from statistics import median
 from typing import Final
 
-from evolution.agents import postevaluation, transition_test
-from evolution.agents.postevaluation import late_spans
+from evolution.agents.parts import late_spans
+from evolution.agents.postevaluation import POST_EVALUATION
 from evolution.agents.solving import FILE as SOLVED
+from evolution.agents.transitions import TRANSITION_TEST
 from evolution.experiments.experiment import state_of
 from evolution.runs.folder import CHAMPIONS, CONFIG, GENERATIONS_PER_PART, LOCK, RunFolder
 from evolution.runs.lease import held_elsewhere
@@ -111,7 +112,7 @@ def standing_of(path: Path, config: RunConfig, *, variant: str = "", to_be_teste
         return Standing(config, to_test=2 * len(late), variant=variant)
     state = state_of(run)
     tested = sum(
-        test.part_path(run, each).exists() for test in (postevaluation, transition_test) for each in late
+        test.path(run, span).exists() for test in (POST_EVALUATION, TRANSITION_TEST) for span in late
     )
     best, damage = float("nan"), state.damage
     if state.generations:
@@ -130,7 +131,8 @@ def standing_of(path: Path, config: RunConfig, *, variant: str = "", to_be_teste
         evolved=evolved,
         done=evolved
         and (
-            not to_be_tested or (tested == 2 * len(late) and (path / postevaluation.FOLDER / SOLVED).exists())
+            not to_be_tested
+            or (tested == 2 * len(late) and (path / POST_EVALUATION.folder / SOLVED).exists())
         ),
         at_work=is_held(path),
         damage=damage,
@@ -156,8 +158,8 @@ def pace_of(runs: Iterable[RunFolder]) -> Pace:
     for run in runs:
         size = size_of(run.config)
         generations += [each / size for each in _intervals([run.part_path(each) for each in run.spans])]
-        evaluations += _intervals([postevaluation.part_path(run, each) for each in late_spans(run)])
-        transitions += _intervals([transition_test.part_path(run, each) for each in late_spans(run)])
+        evaluations += _intervals([POST_EVALUATION.path(run, span) for span in late_spans(run)])
+        transitions += _intervals([TRANSITION_TEST.path(run, span) for span in late_spans(run)])
     part = median(generations) if generations else float("nan")
     default = TESTS_PER_EVOLUTION * part / 2
     tests = [median(each) if each else default for each in (evaluations, transitions)]

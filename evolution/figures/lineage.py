@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import NON_EXPERIENCED
 from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.agents.lineage_scores import IN_A_ROW, NEVER, LineageScores, Skills
+from evolution.agents.firsts import NEVER
+from evolution.agents.lineage_scores import IN_A_ROW, LineageScores, Skills
 from evolution.figures.page import FAINT, STYLE, head
 
 ROW_HEIGHT: Final = 0.36  # [in]
@@ -142,7 +143,7 @@ def _legend(scores: LineageScores) -> str:
         f"Height of a row: share of {2 * scores.per_area} trials carried out, 0 to 100 %. "
         "Flags: generation in which the skill first came\n"
         f"(black: {IN_A_ROW} generations in a row above 75 %) and in which it came for good, "
-        "if later (grey: nine tenths of the rest too).\n"
+        "if later (grey: the agent and nine tenths of the rest too).\n"
         "S2 bent: beta above 45° while S1 is on the target, for a second (dark) or at all (pale)."
     )
 

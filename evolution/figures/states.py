@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from arm2d import ObjectWord
 from arm2d.constants import N_INTER
 from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.agents.behaviour import NEVER, Behaviour
+from evolution.agents.behaviour import Behaviour
+from evolution.agents.firsts import NEVER
 from evolution.figures.neurons import object_handles
 from evolution.figures.page import FAINT, STYLE, head
 

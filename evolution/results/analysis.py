@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from arm2d import Condition
 from evolution.agents.postevaluation import N_INSTRUCTIONS, TRIALS
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS, AgentClass, categories, classify, count_table
-from evolution.agents.transition_test import CLASSES, TransitionTest
-from evolution.agents.transitions import passes
+from evolution.agents.transitions import CLASSES, TransitionTest, passes
 from evolution.experiments.experiment import Experiment
 from evolution.results.comparisons import compare_conditions
 from evolution.results.generalisers import generalisers_of

@@ -19,7 +19,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.agents.postevaluation import late_history
+from evolution.agents.parts import late_history
 from evolution.results.statistics import sign_flip_test
 from evolution.runs.folder import RunFolder
 from evolution.search.algorithm import rank as ranking

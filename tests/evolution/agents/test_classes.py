@@ -10,7 +10,8 @@ from arm2d import Condition
 from evolution.agents import classes as class_observation
 from evolution.agents.classes import CLASSES, Observation, Sampling, choose, observation_path, observe
 from evolution.agents.lesions import lesion_scores
-from evolution.agents.postevaluation import late_history, post_evaluate
+from evolution.agents.parts import late_history
+from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.subtasks import AgentClass
 from evolution.cli import main
 from evolution.report.classes import behaviours_of, class_figures, write_classes

@@ -15,7 +15,7 @@ from arm2d import Condition, Readings, draw_trials, record_trial
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.agents.subtasks import SUBTASKS
-from evolution.agents.transition_test import run_transition_test
+from evolution.agents.transitions import run_transition_test
 from evolution.experiments.experiment import open_experiment
 from evolution.report.page import render, write_report
 from evolution.report.pictures import file_uri

@@ -9,7 +9,7 @@ import pytest
 
 from arm2d import Condition, Readings
 from evolution.agents.postevaluation import post_evaluate
-from evolution.agents.transition_test import run_transition_test
+from evolution.agents.transitions import run_transition_test
 from evolution.cli import main
 from evolution.experiments.experiment import open_experiment
 from evolution.figures.compare import compare_figure

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from evolution.agents.postevaluation import late_spans
+from evolution.agents.parts import late_spans
 from evolution.figures.generalisers import draw_density, draw_marks
 from evolution.results.generalisers import (
     generalisers_of,
