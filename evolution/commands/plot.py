@@ -44,4 +44,4 @@ def write_fitness_curve(run_folder: RunFolder, output: Path) -> list[Path]:
     history = recorded_history(run_folder)
     config = run_folder.config
     origin = f"{config.condition}, seed {config.seed}, {len(history)} generations"
-    return save_figure(fitness_curve(history, config.condition, origin), output / "fitness")
+    return save_figure(fitness_curve(history, origin), output / "fitness")

@@ -26,9 +26,9 @@ from evolution.results.key_numbers import (
     pass_name,
     top_name,
 )
-from evolution.results.published import LARGEST_FITNESS
 from evolution.results.records import Results
 from evolution.results.wording import TITLES
+from evolution.search.settings import LARGEST_FITNESS
 
 PAPER: Final = "#8A857A"
 OURS: Final = "#12545F"

@@ -24,6 +24,7 @@ from evolution.figures.run import running_median
 from evolution.results import published
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES
+from evolution.search.settings import LARGEST_FITNESS
 
 # From pale sand (never) to deep teal (nearly always), lightness falling evenly.
 CATEGORY_MAP: Final = LinearSegmentedColormap.from_list(
@@ -44,7 +45,7 @@ def fitness_figure(results: Results) -> Figure:
 
 
 def _draw_fitness(axes: Axes, results: ConditionResults) -> None:
-    axes.axhline(published.LARGEST_FITNESS, color=FAINT, lw=1.0, ls=(0, (4, 3)))
+    axes.axhline(LARGEST_FITNESS, color=FAINT, lw=1.0, ls=(0, (4, 3)))
     colours = mpl.colormaps["viridis"](np.linspace(0.05, 0.85, max(len(results.runs), 1)))
     for seed, best, first, colour in zip(
         results.seeds, results.best, results.first_solved, colours, strict=True

@@ -11,11 +11,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
-from arm2d import ActionWord, Condition, ObjectWord
+from arm2d import ActionWord, ObjectWord
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP, head
 from evolution.runs.history import History
 from evolution.search.evaluation import Evaluation
+from evolution.search.settings import LARGEST_FITNESS
 
 BEST_COLOUR: Final = "#1B4F72"
 MEAN_COLOUR: Final = "#8FB3CC"
@@ -65,24 +66,23 @@ def _draw_cell(axes: Axes, row: int, column: int, count: int, trials: int, never
         axes.add_patch(frame)
 
 
-def fitness_curve(history: History, condition: Condition, origin: str) -> Figure:
+def fitness_curve(history: History, origin: str) -> Figure:
     """A page with the fitness of a run over its generations."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.6, 4.6))
         axes = figure.add_axes((0.085, 0.125, 0.89, 0.735))
-        draw_fitness_curve(axes, history, condition)
+        draw_fitness_curve(axes, history)
         head(figure, "Fitness over the generations", origin, left=0.085)
     return figure
 
 
-def draw_fitness_curve(axes: Axes, history: History, condition: Condition) -> None:
+def draw_fitness_curve(axes: Axes, history: History) -> None:
     """Best and mean fitness per generation, their running median, and the largest fitness possible."""
-    limit = largest_fitness(condition)
     generations = history.generations
-    axes.axhline(limit, color=FAINT, linewidth=1.0, linestyle=(0, (4, 3)))
+    axes.axhline(LARGEST_FITNESS, color=FAINT, linewidth=1.0, linestyle=(0, (4, 3)))
     axes.annotate(
-        f"largest possible, {limit:.3f}",
-        (1.0, limit),
+        f"largest possible, {LARGEST_FITNESS:.3f}",
+        (1.0, LARGEST_FITNESS),
         xytext=(-4, 4),
         xycoords=("axes fraction", "data"),
         textcoords="offset points",
@@ -96,16 +96,10 @@ def draw_fitness_curve(axes: Axes, history: History, condition: Condition) -> No
     ):
         axes.plot(generations, values, color=colour, linewidth=0.5, alpha=0.35)
         axes.plot(generations, running_median(values), color=colour, linewidth=1.8, label=name)
-    axes.set(xlabel="generation", ylabel="fitness, mean of 28 trials", ylim=(0.0, 1.1 * limit))
+    axes.set(xlabel="generation", ylabel="fitness, mean of 28 trials", ylim=(0.0, 1.1 * LARGEST_FITNESS))
     axes.set_xlim(generations[0], max(generations[-1], generations[0] + 1))
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(frameon=False, loc="lower right", ncols=2)
-
-
-def largest_fitness(condition: Condition) -> float:
-    """Mean of the largest F1 + F2 + F3: 3 for MOVE and TOUCH, 2 for the third action; 18 / 7."""
-    largest = [2.0 if each.action is condition.third_action else 3.0 for each in condition.experienced]
-    return sum(largest) / len(largest)
 
 
 def running_median(values: NDArray[np.float64], width: int = 51) -> NDArray[np.float64]:

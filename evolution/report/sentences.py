@@ -12,6 +12,7 @@ from evolution.results import published
 from evolution.results.notable import best_agent
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES, of, p_value, percent
+from evolution.search.settings import LARGEST_FITNESS
 
 # A difference whose p-value is smaller is called one.
 LEVEL = 0.05
@@ -35,9 +36,7 @@ def standing_of_best(each: ConditionResults) -> str:
 
 def _evolution(shown: dict[Condition, ConditionResults]) -> str:
     counts = _and(f"{of(each.at_plateau, len(each.runs))} {TITLES[c]} runs" for c, each in shown.items())
-    return (
-        f"{counts} end at the largest fitness, 18/7 = {published.LARGEST_FITNESS:.3f}; in the paper all do."
-    )
+    return f"{counts} end at the largest fitness, 18/7 = {LARGEST_FITNESS:.3f}; in the paper all do."
 
 
 def _generalisation(shown: dict[Condition, ConditionResults]) -> str:

@@ -18,7 +18,7 @@ from evolution.agents.postevaluation import N_INSTRUCTIONS, successes_by_area
 from evolution.agents.solving import all_solved
 from evolution.agents.subtasks import AgentClass, categories, classify
 from evolution.results.analysis import PLATEAU_SHARE
-from evolution.results.records import FITNESS_LIMIT, PLATEAU_TOLERANCE
+from evolution.results.records import ends_at_largest
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History, check_array
 from evolution.runs.storage import DamagedFileError, make_folder
@@ -54,7 +54,7 @@ class RunMeasures:
     @property
     def at_limit(self) -> bool:
         """Whether it ends at the paper's 2.57."""
-        return self.plateau >= FITNESS_LIMIT - PLATEAU_TOLERANCE
+        return bool(ends_at_largest(self.plateau))
 
     @property
     def agents(self) -> NDArray[np.int16]:

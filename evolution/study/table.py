@@ -14,6 +14,7 @@ from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.results import published
 from evolution.results.statistics import mean_interval, midranks
 from evolution.search.randomness import Purpose, generator
+from evolution.search.settings import LARGEST_FITNESS
 from evolution.study.measures import RunMeasures
 
 AREAS: Final = ("right", "left")
@@ -93,7 +94,7 @@ def nearest(variants: Sequence[VariantMeasures], n: int = 3) -> list[VariantMeas
     Each is ranked by how far its mean plateau is from the published one, and by how far its mean share of
     agents in category 10 of sub-task I is from Table II's; the sum of both ranks decides.
     """
-    plateau_gaps = np.array([abs(each.plateaus.mean() - published.LARGEST_FITNESS) for each in variants])
+    plateau_gaps = np.array([abs(each.plateaus.mean() - LARGEST_FITNESS) for each in variants])
     share_gaps = np.array([abs(each.top_shares[:, 0].mean() - _published_share(each)) for each in variants])
     order = np.argsort(midranks(plateau_gaps) + midranks(share_gaps), kind="stable")
     return [variants[i] for i in order[:n]]
