@@ -31,16 +31,16 @@ class Compare:
         from evolution.experiments.experiment import open_experiment
         from evolution.figures.compare import compare_figure
         from evolution.figures.page import save_figure
-        from evolution.report.rows import to_csv
+        from evolution.report.comparison import comparison_table
         from evolution.results.analysis import analyse
-        from evolution.results.key_numbers import comparison_rows, departures
+        from evolution.results.key_numbers import departures
         from evolution.runs.storage import make_folder, write_atomically
 
         console = Console(soft_wrap=True, highlight=False)
         found = {name: open_experiment(path) for name, path in _named(self.experiments).items()}
         results = {name: analyse(each) for name, each in found.items()}
         make_folder(self.output)
-        write_atomically(self.output / "comparison.csv", to_csv(comparison_rows(results)).encode())
+        write_atomically(self.output / "comparison.csv", comparison_table(results).to_csv().encode())
         print(self.output / "comparison.csv")
         for path in save_figure(compare_figure(results), self.output / "comparison"):
             print(path)

@@ -55,12 +55,12 @@ def _write(source: Source, result: Evaluation, folder: Path) -> list[Path]:
     """Write figures and tables; their paths."""
     from evolution.figures.page import save_figure
     from evolution.figures.run import heat_map
-    from evolution.report.evaluation import to_csv, to_json
+    from evolution.report.evaluation import instruction_table, to_json
     from evolution.runs.storage import make_folder, write_atomically
 
     make_folder(folder)
     paths = save_figure(heat_map(result, source.origin), folder / f"{source.name}-heat-map")
-    for suffix, text in ((".csv", to_csv(result)), (".json", to_json(result, source))):
+    for suffix, text in ((".csv", instruction_table(result).to_csv()), (".json", to_json(result, source))):
         paths.append(folder / f"{source.name}{suffix}")
         write_atomically(paths[-1], text.encode())
     if source.folder:

@@ -9,13 +9,12 @@ import numpy as np
 from evolution.figures.page import save_figure
 from evolution.figures.paper import all_figures
 from evolution.report.rows import (
-    generaliser_rows,
-    genotype_rows,
-    run_rows,
-    table_ii_rows,
-    test_rows,
-    to_csv,
-    transition_rows,
+    generaliser_table,
+    genotype_table,
+    run_table,
+    table_ii,
+    test_table,
+    transition_table,
 )
 from evolution.results.analysis import interval_of_mean
 from evolution.results.records import ConditionResults, Results
@@ -27,17 +26,17 @@ def write_results(results: Results, folder: Path) -> list[Path]:
     """Write everything into a folder; the paths, tables first."""
     make_folder(folder)
     tables = {
-        "table-ii.csv": table_ii_rows(results),
-        "runs.csv": run_rows(results),
-        "transitions.csv": transition_rows(results),
-        "tests.csv": test_rows(results),
-        "generalisers.csv": generaliser_rows(results),
-        "generaliser-genotypes.csv": genotype_rows(results),
+        "table-ii.csv": table_ii(results),
+        "runs.csv": run_table(results),
+        "transitions.csv": transition_table(results),
+        "tests.csv": test_table(results),
+        "generalisers.csv": generaliser_table(results),
+        "generaliser-genotypes.csv": genotype_table(results),
     }
     paths = []
-    for name, rows in tables.items():
+    for name, table in tables.items():
         paths.append(folder / name)
-        write_atomically(paths[-1], to_csv(rows).encode())
+        write_atomically(paths[-1], table.to_csv().encode())
     paths.append(folder / "results.npz")
     write_arrays(paths[-1], arrays_of(results))
     for name, figure in all_figures(results).items():

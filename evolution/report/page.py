@@ -30,9 +30,8 @@ from evolution.report.classes import behaviours_kept, class_figures
 from evolution.report.configuration import readings_rows, settings_rows, versions_rows
 from evolution.report.pictures import figure_uri, file_uri
 from evolution.report.recordings import recordings_of
-from evolution.report.report_tables import category_tables, comparison_rows, departures_in_size, run_rows
-from evolution.report.sentences import result_sentences, standing_of_best
-from evolution.report.tables import main_lines
+from evolution.report.sentences import departures_in_size, result_sentences, standing_of_best
+from evolution.report.tables import category_tables, main_lines, shown_runs, shown_tests
 from evolution.results.notable import Agent, best_agent
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES, generalisers_sentence
@@ -90,8 +89,8 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "main_lines": main_lines(shown),
         "category_tables": category_tables(shown),
         "generalisers": [generalisers_sentence(each) for each in shown.conditions.values()],
-        "run_rows": run_rows(shown),
-        "comparison_rows": comparison_rows(results),
+        "runs": shown_runs(shown),
+        "tests": shown_tests(results),
         "standings": [standing_of(run.path, run.config) for run in experiment.all_runs],
         "subtasks": SUBTASKS,
         "classes": [str(each) for each in AgentClass],

@@ -1,4 +1,4 @@
-"""The result of an experiment in three sentences, whatever it is."""
+"""The result of an experiment in three sentences, whatever it is, and where its size is not the paper's."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from evolution.results import published
 from evolution.results.notable import best_agent
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES, of, p_value, percent
-from evolution.search.settings import LARGEST_FITNESS
+from evolution.search.settings import LARGEST_FITNESS, Settings
 
 # A difference whose p-value is smaller is called one.
 LEVEL = 0.05
@@ -32,6 +32,25 @@ def standing_of_best(each: ConditionResults) -> str:
     return (
         "best generaliser" if each.members[AgentClass.FULL].any() else "agent that comes nearest to all nine"
     )
+
+
+def departures_in_size(results: Results) -> list[str]:
+    """Where an experiment is smaller or larger than the paper's, so that numbers cannot be compared."""
+    sentences = []
+    settings = {run.config.settings for run in results.experiment.all_runs}
+    paper = Settings().to_mapping()
+    for own in settings:
+        ours = own.to_mapping()
+        sentences += [
+            f"{name.replace('_', ' ')} {ours[name]:,}, not {paper[name]:,}"
+            for name in paper
+            if ours[name] != paper[name]
+        ]
+    for condition, found in results.conditions.items():
+        n = len(found.runs)
+        if n != published.RUNS:
+            sentences.append(f"{n} {TITLES[condition]} run{'s' if n != 1 else ''}, not {published.RUNS}")
+    return sentences
 
 
 def _evolution(shown: dict[Condition, ConditionResults]) -> str:

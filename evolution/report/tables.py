@@ -1,4 +1,7 @@
-"""The main table of the report: everything the paper gives a number or a word for, beside ours."""
+"""The tables of the report: the paper's numbers beside ours, Table II, runs, tests between conditions.
+
+The main table has everything the paper gives a number or a word for.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +12,24 @@ from typing import Final
 import numpy as np
 
 from arm2d import Condition
-from evolution.agents.subtasks import SUBTASKS, AgentClass
+from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
+from evolution.figures.classes import SHORT
+from evolution.report.columns import PlainTable
+from evolution.report.rows import BothTests, both_tests
 from evolution.results import published
-from evolution.results.records import ConditionResults, Results
-from evolution.results.wording import NOT_GIVEN, Line, longest_spell, of, percent, rank_of_generalisers
+from evolution.results.records import AnalysedRun, ConditionResults, Results
+from evolution.results.statistics import Comparison
+from evolution.results.wording import (
+    NOT_GIVEN,
+    TITLES,
+    Line,
+    longest_spell,
+    of,
+    p_value,
+    percent,
+    points,
+    rank_of_generalisers,
+)
 
 SUBTASK_WORDS: Final = MappingProxyType(
     {
@@ -130,3 +147,65 @@ def first_seeds(seeds: Iterable[int], generations: Iterable[int]) -> str:
     """Such as " (seed 7: generation 2,179)"; nothing if there is none."""
     found = [f"seed {s}: generation {g:,}" for s, g in zip(seeds, generations, strict=True) if g >= 0]
     return f" ({', '.join(found)})" if found else ""
+
+
+def category_tables(results: Results) -> list[tuple[str, list[Line]]]:
+    """Table II: for each condition agents by category, with a (paper, ours) pair for each sub-task."""
+    tables = []
+    for condition, each in results.conditions.items():
+        lines = []
+        for category in range(N_CATEGORIES):
+            pairs = zip(published.TABLE_II[condition][category], each.counts[category], strict=True)
+            texts = tuple((f"{theirs:,}", f"{ours:,}") for theirs, ours in pairs)
+            lines.append(Line(_category(category), texts))
+        tables.append((TITLES[condition], lines))
+    return tables
+
+
+def shown_runs(results: Results) -> PlainTable[AnalysedRun]:
+    """Every analysed run: its plateau, when it solved all, agents by class and in category 10."""
+
+    def members(kind: AgentClass) -> Callable[[AnalysedRun], str]:
+        return lambda run: f"{run.members(kind):,}"
+
+    def in_top(subtask: str) -> Callable[[AnalysedRun], str]:
+        return lambda run: f"{run.in_top(subtask):,}"
+
+    return PlainTable(
+        {
+            "run": lambda run: f"{TITLES[run.condition]}, seed {run.seed}",
+            "plateau": lambda run: f"{run.plateau:.3f}",
+            "solved all 28": lambda run: run.first_solved_in_words("{:,}"),
+            **{short: members(kind) for kind, short in SHORT.items()},
+            **{subtask: in_top(subtask) for subtask in SUBTASKS},
+        },
+        results.analysed_runs,
+    )
+
+
+def shown_tests(results: Results) -> PlainTable[BothTests]:
+    """Comparisons of the conditions: shares, difference, interval, and the tests."""
+    first, second = (TITLES[condition] for condition in Condition)
+    return PlainTable(
+        {
+            "share of a run’s agents": lambda both: both.name,  # noqa: RUF001 - as printed
+            first: lambda both: percent(both.sound.means[0]),
+            second: lambda both: percent(both.sound.means[1]),
+            "difference, points [95 %]": lambda both: _with_interval(both.sound),
+            "Mann-Whitney p": lambda both: p_value(both.sound.mann_whitney_p),
+            "permutation p": lambda both: p_value(both.sound.permutation_p),
+            "Cliff’s delta": lambda both: f"{both.sound.cliffs_delta:+.2f}",  # noqa: RUF001 - as printed
+            "paper’s kind, p": lambda both: p_value(both.published_p),  # noqa: RUF001 - as printed
+        },
+        both_tests(results),
+    )
+
+
+def _with_interval(sound: Comparison) -> str:
+    """A difference in percentage points with its interval."""
+    low, high = sound.interval
+    return f"{points(sound.difference)} [{points(low)}, {points(high)}]"
+
+
+def _category(category: int) -> str:
+    return "0" if category == 0 else f"{category} ({8 * (category - 1) + 1} to {8 * category})"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -79,22 +79,6 @@ def key_numbers(each: ConditionResults) -> list[KeyNumber]:
     return numbers
 
 
-def comparison_rows(experiments: Mapping[str, Results]) -> Iterable[Sequence[object]]:
-    """A row for each condition and key number: the paper's, then ours and of how many, by experiment."""
-    heads = [
-        f"{name}{what}" for name in experiments for what in ("", ", of", ", lowest run", ", highest run")
-    ]
-    yield ("condition", "number", "published", *heads)
-    for condition, by_name in by_condition(experiments).items():
-        some = next(iter(by_name.values()))
-        for place, number in enumerate(some):
-            cells = []
-            for name in experiments:
-                own = by_name[name][place] if name in by_name else None
-                cells += _cells(own)
-            yield (str(condition), number.name, _text(number.published), *cells)
-
-
 def by_condition(experiments: Mapping[str, Results]) -> dict[Condition, dict[str, list[KeyNumber]]]:
     """Key numbers by condition and experiment; conditions that no experiment has are left out."""
     found: dict[Condition, dict[str, list[KeyNumber]]] = {}
@@ -122,17 +106,3 @@ def _count(name: str, theirs: float | None, ours: int, n: int) -> KeyNumber:
 
 def _share(name: str, theirs: float | None, runs: NDArray[np.float64], n_agents: int) -> KeyNumber:
     return KeyNumber(name, theirs, float(runs.mean()) if len(runs) else np.nan, n_agents, runs)
-
-
-def _cells(number: KeyNumber | None) -> list[str]:
-    """The number, of how many, and its range over runs."""
-    if number is None:
-        return [""] * 4
-    ends = (number.runs.min(), number.runs.max()) if len(number.runs) else (None, None)
-    return [_text(number.ours), str(number.of), *map(_text, ends)]
-
-
-def _text(value: float | None) -> str:
-    if value is None or np.isnan(value):
-        return ""
-    return f"{value:.4f}".rstrip("0").rstrip(".")

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from arm2d import Condition
+from evolution.agents.firsts import NEVER
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.experiments.experiment import Experiment
 from evolution.results.generalisers import Generalisers
@@ -113,6 +114,66 @@ class ConditionResults:
 
 
 @dataclass(frozen=True)
+class AnalysedRun:
+    """One run of the results of its condition.
+
+    Attributes:
+        results: Of the condition.
+        index: Of the run, in there.
+    """
+
+    results: ConditionResults
+    index: int
+
+    @property
+    def condition(self) -> Condition:
+        """Its condition."""
+        return self.results.condition
+
+    @property
+    def seed(self) -> int:
+        """Its seed."""
+        return int(self.results.seeds[self.index])
+
+    @property
+    def plateau(self) -> float:
+        """Median best fitness at its end."""
+        return float(self.results.plateau[self.index])
+
+    @property
+    def genotypes(self) -> int:
+        """Distinct genotypes among the five best of its late generations."""
+        return int(self.results.genotypes[self.index])
+
+    @property
+    def longest_stay(self) -> int:
+        """The most late generations in which one genotype was among the five best."""
+        return int(self.results.longest_stay[self.index])
+
+    @property
+    def generalisers(self) -> Generalisers:
+        """Its fully compositional agents over time."""
+        return self.results.generalisers[self.index]
+
+    def first_solved_in_words(self, form: str) -> str:
+        """The first generation in which one genotype carried out all trials, in a form, or "never"."""
+        first = int(self.results.first_solved[self.index])
+        return form.format(first) if first != NEVER else "never"
+
+    def members(self, kind: AgentClass) -> int:
+        """How many of its agents belong to a class."""
+        return int(self.results.members[kind][self.index])
+
+    def in_top(self, subtask: str) -> int:
+        """How many of its agents are in category 10 of a sub-task."""
+        return int(self.results.counts_per_run[self.index, -1, SUBTASKS.index(subtask)])
+
+    def share_in_top(self, subtask: str) -> float:
+        """The same as a share of its agents."""
+        return float(self.results.share_in_top(subtask)[self.index])
+
+
+@dataclass(frozen=True)
 class Results:
     """The results of an experiment.
 
@@ -127,6 +188,11 @@ class Results:
     conditions: Mapping[Condition, ConditionResults]
     comparisons: Mapping[str, Comparison]
     published_tests: Mapping[str, tuple[float, float]]
+
+    @property
+    def analysed_runs(self) -> list[AnalysedRun]:
+        """All runs that are in here, condition by condition."""
+        return [AnalysedRun(found, i) for found in self.conditions.values() for i in range(len(found.runs))]
 
     @property
     def missing(self) -> tuple[str, ...]:

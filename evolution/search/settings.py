@@ -10,7 +10,7 @@ from typing import Any, Final
 N_BEST: Final = 5
 # The largest fitness of one trial: F1, F2 and F3 are at most 1 each.
 LARGEST_TRIAL_FITNESS: Final = 3.0
-# The largest fitness of a genotype, the mean over the seven experienced instructions: 3 for four of them, MOVE
+# The largest fitness of a genotype, a mean over the seven experienced instructions: 3 for four of them, MOVE
 # and TOUCH, and 2 for the three of the third action, which has no F3.
 LARGEST_FITNESS: Final = 18 / 7
 

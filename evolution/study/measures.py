@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.agents.firsts import first_row
+from evolution.agents.firsts import NEVER, first_row
 from evolution.agents.parts import best_genotypes, late_spans
 from evolution.agents.postevaluation import N_INSTRUCTIONS, successes_by_area
 from evolution.agents.solving import all_solved
@@ -55,6 +55,11 @@ class RunMeasures:
     def at_limit(self) -> bool:
         """Whether it ends at the paper's 2.57."""
         return bool(ends_at_largest(self.plateau))
+
+    @property
+    def solved(self) -> bool:
+        """Whether one genotype ever carried out all its trials."""
+        return self.first_solved != NEVER
 
     @property
     def agents(self) -> NDArray[np.int16]:

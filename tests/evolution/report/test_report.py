@@ -20,7 +20,7 @@ from evolution.experiments.experiment import open_experiment
 from evolution.report.page import render, write_report
 from evolution.report.pictures import file_uri
 from evolution.report.recordings import compact
-from evolution.report.report_tables import comparison_rows, run_rows
+from evolution.report.tables import shown_runs, shown_tests
 from evolution.report.sentences import result_sentences
 from evolution.results import published
 from evolution.results.analysis import analyse
@@ -122,7 +122,9 @@ def test_every_published_number_stands_beside_ours(text, results):
             ]
             assert any(cells[i : i + 8] == row for i in range(len(cells))), row
         assert f"{each.at_plateau} of 2" in cells
-    for shown in (*run_rows(results), *comparison_rows(results)):
+    for shown in [
+        tuple(row.values()) for table in (shown_runs(results), shown_tests(results)) for row in table.rows()
+    ]:
         start = cells.index(shown[1])
         assert any(cells[i : i + len(shown) - 1] == list(shown[1:]) for i in range(start, len(cells)))
 

@@ -13,18 +13,17 @@ from arm2d.readings import choices
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.cli import main
-from evolution.report.files import to_csv
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.run import evolve
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.study.effects import effect_rows, effects, holm
+from evolution.study.effects import effect_table, effects, holm
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import FILE, measure
 from evolution.study.results import write_study
-from evolution.study.table import group, nearest, run_rows, variant_rows
+from evolution.study.table import group, nearest, run_table, variant_table
 from evolution.study.variants import FACTORS, around, confirmation, finalists, screening
 
 LEDGER = (Path(__file__).parents[3] / "docs" / "ledger.md").read_text(encoding="utf-8")
@@ -145,10 +144,10 @@ def test_runs_are_put_together_by_variant_and_ordered_by_seed(measured):
 
 def test_rows_hold_what_was_measured(measured):
     variants = group(measured[1])
-    runs = list(csv.DictReader(to_csv(run_rows(variants)).splitlines()))
+    runs = list(csv.DictReader(run_table(variants).to_csv().splitlines()))
     assert [row["seed"] for row in runs] == ["1", "2", "1", "2"]
     assert float(runs[0]["plateau"]) == pytest.approx(variants[0].runs[0].plateau, abs=1e-4)
-    one, other = csv.DictReader(to_csv(variant_rows(variants)).splitlines())
+    one, other = csv.DictReader(variant_table(variants).to_csv().splitlines())
     mean = np.mean([float(row["plateau"]) for row in runs[2:]])
     assert float(other["plateau"]) == pytest.approx(mean, abs=1e-4)
     assert float(one["plateau low"]) <= float(one["plateau"]) <= float(one["plateau high"])
@@ -169,8 +168,8 @@ def test_effect_of_a_reading_is_its_difference_seed_by_seed(measured):
     (effect,) = effects(variants)
     assert (effect.reading, effect.value, effect.seeds) == ("object_radius", 8.0, [1, 2])
     np.testing.assert_array_equal(effect.differences, variants[1].plateaus - variants[0].plateaus)
-    assert effect.runs == (list(variants[0].runs), list(variants[1].runs))
-    (row,) = csv.DictReader(to_csv(effect_rows(variants)).splitlines())
+    assert (effect.without, effect.changed) == (list(variants[0].runs), list(variants[1].runs))
+    (row,) = csv.DictReader(effect_table(variants).to_csv().splitlines())
     assert float(row["plateau, difference"]) == pytest.approx(effect.differences.mean(), abs=1e-4)
     # Two seeds have four choices of signs, two of which are at least as far off as any.
     assert float(row["p"]) == float(row["p after Holm"]) == (1.0 if np.prod(effect.differences) < 0 else 0.5)
