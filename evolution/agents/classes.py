@@ -99,10 +99,17 @@ def observe(run: RunFolder, sampling: Sampling = Sampling()) -> Observation:
     chosen = _chosen(members, genotypes, sampling)
     kinds, rows, ranks = np.array(chosen, np.int64).reshape(-1, 3).T
     measured = [_measure(run, genotypes[row, rank], sampling) for _, row, rank in chosen]
+    intact, lesioned, windows, shares = (_stacked(measured, i, shape) for i, shape in enumerate(_shapes()))
     observation = Observation(
-        evaluation.generations[rows].astype(np.int64), ranks, kinds, members.sum(axis=(1, 2)),
-        *(_stacked(measured, i, shape) for i, shape in enumerate(_shapes())),
-    )  # fmt: skip
+        generations=evaluation.generations[rows].astype(np.int64),
+        ranks=ranks,
+        classes=kinds,
+        members=members.sum(axis=(1, 2)),
+        intact=intact,
+        lesioned=lesioned,
+        windows=windows,
+        shares=shares,
+    )
     make_folder(run.path / FOLDER)
     run.write_arrays(observation_path(run, sampling), vars(observation))
     return observation

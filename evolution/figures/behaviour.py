@@ -18,7 +18,7 @@ from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
 from evolution.agents.lesions import LESIONS, LesionScores
-from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP, head
+from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP, beside, head, ink_on
 
 FAILED: Final = "#A8A49B"
 DASHES: Final = (0, (4, 2.5))
@@ -86,9 +86,8 @@ def _draw_lines(
             axes.plot(
                 DT * np.arange(angles.shape[1]), angles[trial], color=colour, ls=style, lw=0.9, alpha=0.8
             )
-            for row, marker, face in (
-                (behaviour.first_sight[trial], "o", "white"), (behaviour.first_touch[trial], "D", INK),
-            ):  # fmt: skip
+            events = ((behaviour.first_sight[trial], "o", "white"), (behaviour.first_touch[trial], "D", INK))
+            for row, marker, face in events:
                 if row != NEVER:
                     axes.plot(
                         DT * row, angles[trial, row], marker, ms=2.8, mfc=face, mec=INK, mew=0.5, zorder=4
@@ -129,24 +128,12 @@ def draw_lesions(axes: Axes, scores: LesionScores) -> None:
             axes.add_patch(
                 Rectangle((place + 0.02, row + 0.04), 0.96, 0.92, fc=SUCCESS_MAP(share), ec="none")
             )
-            axes.text(
-                place + 0.5, row + 0.52, f"{100 * share:.0f}", ha="center", va="center", fontsize=9,
-                color="white" if share > 0.55 else INK,
-            )  # fmt: skip
+            number = axes.text(place + 0.5, row + 0.52, f"{100 * share:.0f}", fontsize=9)
+            number.set(ha="center", va="center", color=ink_on(share))
         if instruction in NON_EXPERIENCED:
-            frame = (places[-1] + 1.08, 1.04)
-            axes.add_patch(
-                Rectangle(
-                    (-0.04, row - 0.02),
-                    *frame,
-                    fill=False,
-                    ec=FAINT,
-                    ls=DASHES,
-                    lw=1.2,
-                    zorder=3,
-                    clip_on=False,
-                )
-            )
+            frame = Rectangle((-0.04, row - 0.02), places[-1] + 1.08, 1.04, fill=False, ec=FAINT)
+            frame.set(linestyle=DASHES, linewidth=1.2, zorder=3, clip_on=False)
+            axes.add_patch(frame)
     axes.set(xlim=(0, places[-1] + 1), ylim=(9, 0))
     axes.set_yticks(np.arange(9) + 0.5, [str(each) for each in scores.condition.instructions])
     for label, instruction in zip(axes.get_yticklabels(), scores.condition.instructions, strict=True):
@@ -157,10 +144,7 @@ def draw_lesions(axes: Axes, scores: LesionScores) -> None:
     axes.spines[:].set_visible(False)
     for start, text in ((1, "the paper's agent would not mind"), (5, "the paper's agent would fail")):
         middle = (places[start] + places[start + 3] + 1) / 2
-        axes.annotate(
-            text, (middle, 0), xytext=(0, 48), textcoords="offset points", ha="center", fontsize=9,
-            fontweight="bold", annotation_clip=False,
-        )  # fmt: skip
+        beside(axes, text, (middle, 0), (0, 48), ha="center", fontsize=9, fontweight="bold")
 
 
 def _frame(axes: Axes, instruction: Instruction) -> None:

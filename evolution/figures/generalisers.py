@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from arm2d.drawing import INK
 from evolution.agents.subtasks import AgentClass, classify
-from evolution.figures.page import FAINT, STYLE
+from evolution.figures.page import FAINT, RIGHT_END, STYLE, beside
 from evolution.results.generalisers import Generalisers
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES
@@ -99,21 +99,16 @@ def draw_marks(axes: Axes, found: Generalisers, top: float, bottom: float) -> No
     """Fully compositional agents, each in the lane of its rank, the generation's best in the top lane."""
     lanes = top - (found.ranks + 0.5) * (top - bottom) / N_BEST
     size = 7.5 if len(found) <= MANY else 4.0
-    axes.plot(
-        found.generations, lanes, "d", ms=size, color=FULL_COLOUR, mec="white", mew=0.5, zorder=3,
-        clip_on=False,
-    )  # fmt: skip
+    look = {"color": FULL_COLOUR, "mec": "white", "mew": 0.5, "zorder": 3, "clip_on": False}
+    axes.plot(found.generations, lanes, "d", ms=size, **look)
 
 
 def _note(axes: Axes, results: ConditionResults, run: int, middle: float) -> None:
     """What there is in a row, at its right end."""
     full, partial = (int(results.members[kind][run]) for kind in (AgentClass.FULL, AgentClass.PARTIAL))
     text = f"{full:,} fully, {partial:,} partially" if full or partial else "none"
-    axes.annotate(
-        text, (1.0, middle), xytext=(6, 0), xycoords=("axes fraction", "data"), textcoords="offset points",
-        va="center", fontsize=8, color=INK if full else FAINT, fontweight="bold" if full else "normal",
-        annotation_clip=False,
-    )  # fmt: skip
+    look = {"color": INK, "fontweight": "bold"} if full else {"color": FAINT}
+    beside(axes, text, (1.0, middle), (6, 0), xycoords=RIGHT_END, va="center", fontsize=8, **look)
 
 
 def _members(results: ConditionResults, run: int, kind: AgentClass) -> NDArray[np.bool_]:

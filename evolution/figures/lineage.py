@@ -12,11 +12,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
-from arm2d import NON_EXPERIENCED
+from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.agents.firsts import NEVER
 from evolution.agents.lineage_scores import IN_A_ROW, LineageScores, Skills
-from evolution.figures.page import FAINT, STYLE, head
+from evolution.figures.page import FAINT, STYLE, beside, head
 
 ROW_HEIGHT: Final = 0.36  # [in]
 GROUP_GAP: Final = 0.34  # [in]
@@ -26,6 +26,8 @@ WIDTH: Final = 8.6  # [in]
 LEFT, RIGHT = 0.19, 0.965
 TICKS: Final = (0, 10, 50, 100, 250, 500, 1000, 2000, 3000, 4000, 5000, 6000)
 BENT_COLOUR: Final = "#5B4B8A"
+# What lies under a flag's number, so that it can be read on any row.
+PAPER: Final = {"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.88}
 
 
 @dataclass(frozen=True)
@@ -81,14 +83,17 @@ def skill_rows(scores: LineageScores) -> list[tuple[str, Sequence[Row]]]:
         for column, action in enumerate(actions)
     ]
     rows = [
-        Row(
-            each.object.name.capitalize(), OBJECT_COLOURS[each.object], *_column(scores.success, column),
-            never_met=each in NON_EXPERIENCED,
-        )
-        for column, each in enumerate(scores.condition.instructions)
-    ]  # fmt: skip
+        _instruction_row(instruction, *_column(scores.success, column))
+        for column, instruction in enumerate(scores.condition.instructions)
+    ]
     groups = [(action.name, rows[3 * i : 3 * i + 3]) for i, action in enumerate(actions)]
     return [("S1 on the target, S2 bent", bent), *groups]
+
+
+def _instruction_row(instruction: Instruction, shares: NDArray[np.float64], first: int, for_good: int) -> Row:
+    """The row of carrying out an instruction, in the colour of its object."""
+    name, colour = instruction.object.name.capitalize(), OBJECT_COLOURS[instruction.object]
+    return Row(name, colour, shares, first, for_good, never_met=instruction in NON_EXPERIENCED)
 
 
 def draw_skill(axes: Axes, row: Row) -> None:
@@ -117,11 +122,9 @@ def draw_skill(axes: Axes, row: Row) -> None:
 def _mark(axes: Axes, generation: int, colour: str, *, leftwards: bool) -> None:
     """A flag where a skill came, with its number on either side."""
     axes.axvline(generation, color=colour, lw=1.3)
-    axes.annotate(
-        f"{generation:,}", (generation, 0.5), xytext=(-4 if leftwards else 4, 0), textcoords="offset points",
-        ha="right" if leftwards else "left", va="center", fontsize=8, fontweight="bold", color=colour,
-        bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.88},
-    )  # fmt: skip
+    look = {"va": "center", "fontsize": 8, "fontweight": "bold", "color": colour, "bbox": PAPER}
+    offset, side = ((-4, 0), "right") if leftwards else ((4, 0), "left")
+    beside(axes, f"{generation:,}", (generation, 0.5), offset, ha=side, **look)
 
 
 def _place(axes: Axes, generation: int) -> float:

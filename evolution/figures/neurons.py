@@ -54,10 +54,8 @@ def draw_activity(axes: Axes, means: NDArray[np.float64]) -> None:
     """Mean outputs of one neuron, [9, B]."""
     axes.axvline(0, color=FAINT, lw=0.8)
     for instruction, mean in enumerate(means):
-        axes.plot(
-            bin_times(), mean, color=OBJECT_COLOURS[ObjectWord(instruction % 3)],
-            ls=ACTION_STYLES[instruction // 3], lw=1.6,
-        )  # fmt: skip
+        colour, style = OBJECT_COLOURS[ObjectWord(instruction % 3)], ACTION_STYLES[instruction // 3]
+        axes.plot(bin_times(), mean, color=colour, ls=style, lw=1.6)
     axes.set(ylim=(-0.03, 1.03), yticks=[0, 0.5, 1])
     axes.tick_params(labelsize=8, color=FAINT, length=2.5)
     axes.spines[["top", "right"]].set_visible(False)

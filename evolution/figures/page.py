@@ -16,6 +16,7 @@ from typing import Any, Final
 
 import matplotlib as mpl
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
@@ -34,6 +35,8 @@ STYLE: Final[dict[Any, Any]] = {
     "svg.fonttype": "path",
     "svg.hashsalt": "wordarm",
 }
+# Coordinates of a place at the right end of a panel, at a height of the data.
+RIGHT_END: Final = ("axes fraction", "data")
 # Paper white at 0 % to deep teal at 100 %, lightness falling evenly.
 SUCCESS_MAP: Final = LinearSegmentedColormap.from_list(
     "success", ["#F7F7F4", "#BBD6D2", "#5A9FA0", "#12545F"]
@@ -54,6 +57,18 @@ def head(figure: Figure, title: str, origin: str, left: float = 0.015) -> None:
     height = figure.get_size_inches()[1]
     figure.text(left, 1 - 0.32 / height, title, fontsize=15, fontweight="bold")
     figure.text(left, 1 - 0.54 / height, origin, fontsize=9, color=FAINT)
+
+
+def beside(
+    axes: Axes, text: str, place: tuple[float, float], offset: tuple[float, float], **look: Any
+) -> None:
+    """Text so many points away from a place of the data, even where no data are drawn."""
+    axes.annotate(text, place, offset, textcoords="offset points", annotation_clip=False, **look)
+
+
+def ink_on(share: float) -> str:
+    """The colour of text on that of a share in `SUCCESS_MAP`."""
+    return "white" if share > 0.55 else INK
 
 
 def save_figure(figure: Figure, stem: Path) -> list[Path]:

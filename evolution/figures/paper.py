@@ -72,10 +72,8 @@ def table_figure(results: Results) -> Figure:
         handles = [
             Patch(color=_category_colour(n), label=_category_label(n)) for n in reversed(range(N_CATEGORIES))
         ]
-        figure.legend(
-            handles=handles, loc="outside right center", frameon=False, fontsize=7.5, title="successes of 80",
-            title_fontsize=8,
-        )  # fmt: skip
+        place = {"loc": "outside right center", "frameon": False}
+        figure.legend(handles=handles, fontsize=7.5, title="successes of 80", title_fontsize=8, **place)
     return figure
 
 

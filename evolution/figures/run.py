@@ -12,8 +12,8 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from arm2d import ActionWord, ObjectWord
-from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP, head
+from arm2d.drawing import OBJECT_COLOURS
+from evolution.figures.page import FAINT, RIGHT_END, STYLE, SUCCESS_MAP, beside, head, ink_on
 from evolution.runs.history import History
 from evolution.search.evaluation import Evaluation
 from evolution.search.settings import LARGEST_FITNESS
@@ -55,7 +55,7 @@ def draw_heat_map(axes: Axes, evaluation: Evaluation) -> None:
 def _draw_cell(axes: Axes, row: int, column: int, count: int, trials: int, never_met: bool) -> None:
     """Numbers and frame of one instruction."""
     share = count / trials
-    colour = "white" if share > 0.55 else INK
+    colour = ink_on(share)
     axes.text(column, row - 0.06, f"{100 * share:.0f} %", ha="center", va="center", fontsize=20, color=colour)
     axes.text(column, row + 0.2, f"{count} of {trials}", ha="center", va="center", fontsize=9, color=colour)
     axes.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, fill=False, edgecolor="white", linewidth=5))
@@ -80,20 +80,9 @@ def draw_fitness_curve(axes: Axes, history: History) -> None:
     """Best and mean fitness per generation, their running median, and the largest fitness possible."""
     generations = history.generations
     axes.axhline(LARGEST_FITNESS, color=FAINT, linewidth=1.0, linestyle=(0, (4, 3)))
-    axes.annotate(
-        f"largest possible, {LARGEST_FITNESS:.3f}",
-        (1.0, LARGEST_FITNESS),
-        xytext=(-4, 4),
-        xycoords=("axes fraction", "data"),
-        textcoords="offset points",
-        ha="right",
-        fontsize=8.5,
-        color=FAINT,
-    )
-    for name, values, colour in (
-        ("best", history.best, BEST_COLOUR),
-        ("mean", history.mean, MEAN_COLOUR),
-    ):
+    look = {"xycoords": RIGHT_END, "ha": "right", "fontsize": 8.5, "color": FAINT}
+    beside(axes, f"largest possible, {LARGEST_FITNESS:.3f}", (1.0, LARGEST_FITNESS), (-4, 4), **look)
+    for name, values, colour in (("best", history.best, BEST_COLOUR), ("mean", history.mean, MEAN_COLOUR)):
         axes.plot(generations, values, color=colour, linewidth=0.5, alpha=0.35)
         axes.plot(generations, running_median(values), color=colour, linewidth=1.8, label=name)
     axes.set(xlabel="generation", ylabel="fitness, mean of 28 trials", ylim=(0.0, 1.1 * LARGEST_FITNESS))

@@ -20,8 +20,8 @@ from evolution.experiments.experiment import open_experiment
 from evolution.report.page import render, write_report
 from evolution.report.pictures import file_uri
 from evolution.report.recordings import compact
-from evolution.report.tables import shown_runs, shown_tests
 from evolution.report.sentences import result_sentences
+from evolution.report.tables import shown_runs, shown_tests
 from evolution.results import published
 from evolution.results.analysis import analyse
 from evolution.results.notable import best_agent
