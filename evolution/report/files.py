@@ -13,7 +13,7 @@ from evolution.report.rows import (
     genotype_table,
     run_table,
     table_ii,
-    test_table,
+    significance_table,
     transition_table,
 )
 from evolution.results.analysis import interval_of_mean
@@ -29,7 +29,7 @@ def write_results(results: Results, folder: Path) -> list[Path]:
         "table-ii.csv": table_ii(results),
         "runs.csv": run_table(results),
         "transitions.csv": transition_table(results),
-        "tests.csv": test_table(results),
+        "tests.csv": significance_table(results),
         "generalisers.csv": generaliser_table(results),
         "generaliser-genotypes.csv": genotype_table(results),
     }

@@ -120,7 +120,7 @@ def both_tests(results: Results) -> list[BothTests]:
     ]
 
 
-def test_table(results: Results) -> PlainTable[BothTests]:
+def significance_table(results: Results) -> PlainTable[BothTests]:
     """Comparisons between the conditions: runs as the unit, and the paper's kind of test."""
     return PlainTable(
         {
