@@ -16,6 +16,7 @@ from arm2d.drawing import INK
 from evolution.agents.subtasks import SUBTASKS
 from evolution.figures.classes import SHORT
 from evolution.figures.page import FAINT, STYLE
+from evolution.results import published
 from evolution.results.key_numbers import (
     AT_LIMIT,
     PLATEAU,
@@ -98,7 +99,7 @@ def draw_numbers(
                 continue
             colour, scale = _colour(name, by_number), 100 / max(number.of, 1) if runs else 100
             if number.published is not None:
-                theirs = number.published * (10 if runs else 100)  # the paper has ten runs
+                theirs = 100 * number.published / (published.RUNS if runs else 1)
                 axes.plot([theirs] * 2, [row - 0.38, row + 0.38], color=PAPER, lw=2.6, solid_capstyle="butt")
             if len(number.runs):
                 each = 100 * number.runs

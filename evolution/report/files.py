@@ -12,8 +12,8 @@ from evolution.report.rows import (
     generaliser_table,
     genotype_table,
     run_table,
-    table_ii,
     significance_table,
+    table_ii,
     transition_table,
 )
 from evolution.results.analysis import interval_of_mean

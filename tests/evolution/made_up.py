@@ -48,7 +48,7 @@ def condition_results(condition, successes, transitions=None, best=None, first_s
     generations = np.arange(100, 100 + n_generations)
     tables = np.array([count_table(categories(own.reshape(-1, 9), condition)) for own in successes])
     classes = [classify(own.reshape(-1, 9), condition) for own in successes]
-    best = np.linspace(1.0, 2.57, 60 * n_runs).reshape(n_runs, -1) if best is None else best
+    best = np.linspace(1.0, 2.57, 2000 * n_runs).reshape(n_runs, -1) if best is None else best
     return ConditionResults(
         condition=condition,
         runs=tuple(

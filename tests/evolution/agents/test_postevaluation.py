@@ -13,7 +13,6 @@ from evolution.agents.solving import solved_trials
 from evolution.agents.transitions import TRANSITION_TEST, run_transition_test
 from evolution.cli import main, parse
 from evolution.experiments.experiment import open_experiment
-from evolution.figures.paper import all_figures
 from evolution.results.analysis import analyse
 from evolution.results.notable import notable_agents, ship
 from evolution.runs.folder import RunFolder
@@ -144,12 +143,6 @@ def test_tests_go_on_past_a_damaged_run_and_end_with_its_name(experiment, tmp_pa
     assert error.count("\n") == 1
     assert str(path) in error
     assert POST_EVALUATION.path(later, late_spans(later)[0]).exists()
-
-
-def test_every_figure_can_be_drawn(experiment):
-    figures = all_figures(analyse(open_experiment(experiment)))
-    assert set(figures) == {"fitness", "table-ii", "transitions", "generalisers"}
-    assert all(figure.axes for figure in figures.values())
 
 
 def test_folder_without_runs_is_refused(tmp_path):
