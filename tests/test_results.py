@@ -20,7 +20,7 @@ from evolution.report.rows import (
     table_ii,
     transition_table,
 )
-from evolution.runs.sources import SHIPPED, find_source
+from evolution.runs.sources import SHIPPED, find_agent
 from evolution.search.evaluation import evaluate
 from evolution.study.effects import effect_table
 from evolution.study.table import run_table as measured_run_table
@@ -129,7 +129,7 @@ def test_stored_tables_have_the_columns_of_those_made_today(name):
 
 @pytest.mark.parametrize("name", sorted(each.stem for each in SHIPPED.glob("*.npz")))
 def test_shipped_agents_do_in_fresh_trials_what_their_files_say(name):
-    source = find_source(name)
+    source = find_agent(name)
     with np.load(SHIPPED / f"{name}.npz", allow_pickle=False) as stored:
         recorded = stored["successes"][0]
     fresh = (

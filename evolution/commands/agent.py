@@ -10,7 +10,7 @@ from tyro.conf import Positional, arg
 from arm2d import Condition
 
 if TYPE_CHECKING:
-    from evolution.runs.sources import Source
+    from evolution.runs.sources import Agent
 
 
 @dataclass(frozen=True)
@@ -29,9 +29,9 @@ class AgentCommand:
     condition: str | None = None
     """Condition of a bare genotype file: with-indicate (the default) or with-ignore."""
 
-    def find_agent(self) -> Source:
+    def find_agent(self) -> Agent:
         """The agent's genotype and its world."""
-        from evolution.runs.sources import find_source
+        from evolution.runs.sources import find_agent
 
         condition = None if self.condition is None else Condition.parse(self.condition)
-        return find_source(self.source, generation=self.generation, rank=self.rank, condition=condition)
+        return find_agent(self.source, generation=self.generation, rank=self.rank, condition=condition)

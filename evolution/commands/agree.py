@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from tyro.conf import Positional, arg
 
 if TYPE_CHECKING:
-    from mujoco_port.acting.agreement import Agent
+    from mujoco_port.acting.agreement import Candidate
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Agree:
         get_robot(self.robot)
         if "camera" in self.loops:
             choose_back_end()
-        listed = jobs([find_agent(source) for source in self.sources], self.loops, self.starts, self.seed)
+        listed = jobs([candidate(name) for name in self.sources], self.loops, self.starts, self.seed)
         processes = self.processes or len(os.sched_getaffinity(0))
         console = Console()
         counted = list(
@@ -74,11 +74,11 @@ class Agree:
         return 0
 
 
-def find_agent(name: str) -> Agent:
-    """An agent, by what the user calls it."""
-    from evolution.runs.sources import find_source
-    from mujoco_port.acting.agreement import Agent
+def candidate(name: str) -> Candidate:
+    """Whom to try, by what the user calls it."""
+    from evolution.runs.sources import find_agent
+    from mujoco_port.acting.agreement import Candidate
 
-    source = find_source(name)
-    home = "" if source.folder is None else f"{source.condition}/{source.folder.path.name}/"
-    return Agent(home + source.name, source.genotype, source.condition.instructions, source.readings)
+    agent = find_agent(name)
+    home = "" if agent.folder is None else f"{agent.condition}/{agent.folder.path.name}/"
+    return Candidate(home + agent.name, agent.genotype, agent.condition.instructions, agent.readings)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from evolution.agents.behaviour import Behaviour
     from evolution.agents.lesions import LesionScores
     from evolution.agents.variance import VarianceShares
-    from evolution.runs.sources import Source
+    from evolution.runs.sources import Agent
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class BehaviourCommand(AgentCommand):
 
 
 def _write(
-    source: Source,
+    source: Agent,
     behaviour: Behaviour,
     lesions: LesionScores,
     shares: dict[str, VarianceShares],

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from evolution.commands.agent import AgentCommand
 
 if TYPE_CHECKING:
-    from evolution.runs.sources import Source
+    from evolution.runs.sources import Agent
     from evolution.search.evaluation import Evaluation
 
 
@@ -51,7 +51,7 @@ class Evaluate(AgentCommand):
         return 0
 
 
-def _write(source: Source, result: Evaluation, folder: Path) -> list[Path]:
+def _write(source: Agent, result: Evaluation, folder: Path) -> list[Path]:
     """Write figures and tables; their paths."""
     from evolution.figures.page import save_figure
     from evolution.figures.run import heat_map

@@ -7,7 +7,7 @@ import json
 from rich.table import Table
 
 from evolution.report.columns import PlainTable
-from evolution.runs.sources import Source
+from evolution.runs.sources import Agent
 from evolution.search.evaluation import Evaluation
 
 
@@ -52,12 +52,12 @@ def terminal_table(evaluation: Evaluation, title: str) -> Table:
     return table
 
 
-def to_json(evaluation: Evaluation, source: Source) -> str:
+def to_json(evaluation: Evaluation, agent: Agent) -> str:
     """The table with where the genotype comes from and what it was asked."""
     content = {
-        "origin": source.origin,
+        "origin": agent.origin,
         "condition": str(evaluation.condition),
-        "readings": source.readings.to_mapping(),
+        "readings": agent.readings.to_mapping(),
         "trial_seed": evaluation.trial_seed,
         "instructions": instruction_table(evaluation).rows(),
     }

@@ -32,7 +32,7 @@ from evolution.report.pictures import figure_uri, file_uri
 from evolution.report.recordings import recordings_of
 from evolution.report.sentences import departures_in_size, result_sentences, standing_of_best
 from evolution.report.tables import category_tables, main_lines, shown_runs, shown_tests
-from evolution.results.notable import Agent, best_agent
+from evolution.results.notable import NotableAgent, best_agent
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES, generalisers_sentence
 from evolution.runs.storage import make_folder, write_atomically
@@ -107,7 +107,7 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
     }
 
 
-def _agent(each: ConditionResults, agent: Agent, experiment: Path) -> dict[str, Any]:
+def _agent(each: ConditionResults, agent: NotableAgent, experiment: Path) -> dict[str, Any]:
     """The best agent of a condition: its heat map, its recordings, and figures that lie beside its run."""
     instructions = each.condition.instructions
     cells = [
@@ -152,7 +152,7 @@ def _cell(instruction: str, never_met: bool, successes: int) -> dict[str, Any]:
     }
 
 
-def _figures_beside(agent: Agent) -> Iterable[tuple[str, str]]:
+def _figures_beside(agent: NotableAgent) -> Iterable[tuple[str, str]]:
     """(caption, picture) of what was drawn for exactly this agent."""
     stem = f"generation-{agent.generation:06d}-rank-{agent.rank}"
     for folder, caption in FIGURE_FOLDERS.items():

@@ -13,26 +13,26 @@ import numpy as np
 
 from arm2d import TrialRecord
 from evolution.agents.recording import record_instruction
-from evolution.results.notable import Agent
-from evolution.runs.sources import find_source
+from evolution.results.notable import NotableAgent
+from evolution.runs.sources import find_agent
 
 AREAS: Final = ("right", "left")
 TRIAL_SEED: Final = 0
 
 
-def recordings_of(agent: Agent) -> dict[str, Any]:
+def recordings_of(notable: NotableAgent) -> dict[str, Any]:
     """An agent's nine instructions, one trial from each start area, and the world they took place in.
 
     Raises:
         ValueError: If the agent's run is damaged.
     """
-    source = find_source(str(agent.run.path), generation=agent.generation, rank=agent.rank)
-    readings = source.readings
+    agent = find_agent(str(notable.run.path), generation=notable.generation, rank=notable.rank)
+    readings = agent.readings
     trials = {
         str(instruction): {
-            area: compact(record_instruction(source, instruction, area, TRIAL_SEED)) for area in AREAS
+            area: compact(record_instruction(agent, instruction, area, TRIAL_SEED)) for area in AREAS
         }
-        for instruction in source.condition.instructions
+        for instruction in agent.condition.instructions
     }
     return {
         "radius": readings.object_radius,

@@ -4,7 +4,7 @@
     best-specialist    With-Indicate: masters the experienced instructions best, never a never-met one
     with-ignore        With-Ignore: as best-generaliser
 
-`wordarm evaluate`, `wordarm port` and `find_source` take these names.
+`wordarm evaluate`, `wordarm port` and `find_agent` take these names.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from evolution.runs.storage import make_folder, write_arrays
 
 
 @dataclass(frozen=True)
-class Agent:
+class NotableAgent:
     """One agent of an experiment, and what it made of nine instructions.
 
     Attributes:
@@ -40,12 +40,12 @@ class Agent:
     successes: NDArray[np.int16]
 
 
-def best_agent(results: ConditionResults) -> Agent | None:
+def best_agent(results: ConditionResults) -> NotableAgent | None:
     """The agent whose least-mastered instruction of all nine succeeds most; then the most successes."""
     return _first_by(results, results.successes.min(axis=-1), results.successes.sum(axis=-1))
 
 
-def best_specialist(results: ConditionResults) -> Agent | None:
+def best_specialist(results: ConditionResults) -> NotableAgent | None:
     """The agent that masters the experienced instructions best and never a never-met one."""
     order = [results.condition.instructions.index(each) for each in NON_EXPERIENCED]
     known = [i for i in range(N_INSTRUCTIONS) if i not in order]
@@ -54,7 +54,7 @@ def best_specialist(results: ConditionResults) -> Agent | None:
     return _first_by(results, untouched, skills.min(axis=-1), skills.sum(axis=-1))
 
 
-def notable_agents(results: Results) -> dict[str, Agent]:
+def notable_agents(results: Results) -> dict[str, NotableAgent]:
     """The agents to be kept, by name, as far as there are any."""
     indicate = results.conditions.get(Condition.WITH_INDICATE)
     ignore = results.conditions.get(Condition.WITH_IGNORE)
@@ -76,17 +76,17 @@ def ship(results: Results, folder: Path) -> list[Path]:
     return paths
 
 
-def _first_by(results: ConditionResults, *keys: NDArray) -> Agent | None:
+def _first_by(results: ConditionResults, *keys: NDArray) -> NotableAgent | None:
     """The agent with the largest keys, the first counting most; the earliest of equals."""
     if not results.successes.size:
         return None
     index = np.lexsort([-key.reshape(-1).astype(np.int64) for key in reversed(keys)])[0]
     run, late, rank = np.unravel_index(index, results.successes.shape[:3])
     successes = results.successes[run, late, rank]
-    return Agent(results.runs[run], int(results.generations[late]), int(rank), successes)
+    return NotableAgent(results.runs[run], int(results.generations[late]), int(rank), successes)
 
 
-def _write(agent: Agent, path: Path) -> None:
+def _write(agent: NotableAgent, path: Path) -> None:
     """One agent, with the config of its run and what it made of the nine instructions."""
     config = agent.run.config
     genotypes = recorded_generation(agent.run, agent.generation).best_genotypes[0]

@@ -17,7 +17,7 @@ from evolution.results.analysis import analyse
 from evolution.results.notable import notable_agents, ship
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import evolve
-from evolution.runs.sources import find_source
+from evolution.runs.sources import find_agent
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
@@ -156,10 +156,10 @@ def test_shipped_agents_are_found_again_with_their_world_and_scores(experiment, 
     assert {each.stem for each in paths} <= {"best-generaliser", "best-specialist", "with-ignore"}
     agents = notable_agents(results)
     for path in paths:
-        source, agent = find_source(str(path)), agents[path.stem]
+        source, agent = find_agent(str(path)), agents[path.stem]
         assert source.condition is agent.run.config.condition
         assert source.readings == agent.run.config.readings
-        rank = find_source(str(agent.run.path), generation=agent.generation, rank=agent.rank)
+        rank = find_agent(str(agent.run.path), generation=agent.generation, rank=agent.rank)
         np.testing.assert_array_equal(source.genotype, rank.genotype)
 
 

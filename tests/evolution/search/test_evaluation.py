@@ -7,7 +7,7 @@ import pytest
 
 from arm2d import Condition, Readings
 from evolution.report.evaluation import instruction_table, terminal_table, to_json
-from evolution.runs.sources import Source
+from evolution.runs.sources import Agent
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import evaluate
 from tests.evolution.small_runs import SMALL
@@ -57,7 +57,7 @@ def test_fitness_is_the_sum_of_its_parts():
 
 def test_csv_and_json_tell_what_the_evaluation_does():
     result = evaluate(GENOTYPES[0], SMALL.condition, SMALL.readings, per_area=2)
-    source = Source(GENOTYPES[0], SMALL.condition, SMALL.readings, "somewhere", "agent")
+    source = Agent(GENOTYPES[0], SMALL.condition, SMALL.readings, "somewhere", "agent")
     from_csv = list(csv.DictReader(io.StringIO(instruction_table(result).to_csv())))
     content = json.loads(to_json(result, source))
     assert content["instructions"] == instruction_table(result).rows()
