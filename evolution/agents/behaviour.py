@@ -71,7 +71,7 @@ class Behaviour:
 
     def arrays(self) -> dict[str, NDArray]:
         """Its arrays by name, ready for an .npz."""
-        names = [each.name for each in fields(self) if each.name != "condition"]
+        names = [field.name for field in fields(self) if field.name != "condition"]
         return {"condition": np.array(str(self.condition)), **{name: getattr(self, name) for name in names}}
 
 

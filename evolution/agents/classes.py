@@ -135,7 +135,7 @@ def read_observation(run: RunFolder, sampling: Sampling = Sampling()) -> Observa
             check_array(path, arrays, name, (n, *shape), np.dtype(np.float64))
     except DamagedFileError as error:
         raise DamagedFileError(path, error.found, f"remove it and repeat: {next_move}") from None
-    return Observation(*(arrays[each.name] for each in fields(Observation)))
+    return Observation(*(arrays[field.name] for field in fields(Observation)))
 
 
 def choose(members: NDArray[np.bool_], genotypes: NDArray[np.float64], most: int) -> list[tuple[int, int]]:

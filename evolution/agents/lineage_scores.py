@@ -109,7 +109,7 @@ def score_lineage(
     for done, genotype in enumerate(distinct, start=1):
         scores = run_trials(genotype, trials, readings)
         success.append(scores.success.reshape(len(condition.instructions), -1).mean(axis=1))
-        stays.append([longest_bent_stay(record_trial(genotype, each, readings)) for each in watched])
+        stays.append([longest_bent_stay(record_trial(genotype, trial, readings)) for trial in watched])
         on_ancestor(done, len(distinct))
     by_action = np.reshape(stays, (len(distinct), 3, -1))  # [A, 3, trials]
     return LineageScores(

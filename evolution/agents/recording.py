@@ -27,7 +27,7 @@ def record_instruction(
     if instruction not in known:
         raise ValueError(
             f"{agent.condition} has no instruction {instruction}; "
-            f"it has {', '.join(str(each) for each in known)}"
+            f"it has {', '.join(str(word) for word in known)}"
         )
     trials = draw_trials([instruction], 1, agent.readings, generator(trial_seed, Purpose.RECORDING))
     return record_trial(agent.genotype, trials[("right", "left").index(start_area)], agent.readings)

@@ -83,38 +83,38 @@ class TransitionTest:
 
 def action_transitions(condition: Condition) -> tuple[Transition, ...]:
     """All changes of the action word whose scored instruction was met, object by object."""
-    actions = sorted({each.action for each in condition.instructions})
+    actions = sorted({word.action for word in condition.instructions})
     changes = [
         Transition(Instruction(first, object_), Instruction(later, object_), Instruction(later, object_))
         for object_ in ObjectWord
         for first, later in permutations(actions, 2)
     ]
-    return tuple(each for each in changes if each.scored not in NON_EXPERIENCED)
+    return tuple(change for change in changes if change.scored not in NON_EXPERIENCED)
 
 
 def object_transitions(condition: Condition) -> tuple[Transition, ...]:
     """All changes of the object word whose scored instruction was met, action by action."""
-    actions = sorted({each.action for each in condition.instructions})
+    actions = sorted({word.action for word in condition.instructions})
     changes = [
         Transition(Instruction(action, first), Instruction(action, later), Instruction(action, first))
         for action in actions
         for first, later in permutations(ObjectWord, 2)
     ]
-    return tuple(each for each in changes if each.scored not in NON_EXPERIENCED)
+    return tuple(change for change in changes if change.scored not in NON_EXPERIENCED)
 
 
 def draw_transition_trials(
     transitions: tuple[Transition, ...], readings: Readings, rng: np.random.Generator
 ) -> Trials:
     """80 trials of each transition, 40 from each start area, transition after transition."""
-    drawn = draw_trials([each.scored for each in transitions], TRIALS_PER_AREA, readings, rng)
+    drawn = draw_trials([transition.scored for transition in transitions], TRIALS_PER_AREA, readings, rng)
 
     def words(instructions: list[Instruction]) -> tuple[NDArray, NDArray]:
-        actions, objects = [each.action for each in instructions], [each.object for each in instructions]
+        actions, objects = [word.action for word in instructions], [word.object for word in instructions]
         return np.repeat(actions, TRIALS), np.repeat(objects, TRIALS)
 
-    first = words([each.before for each in transitions])
-    later = words([each.after for each in transitions])
+    first = words([transition.before for transition in transitions])
+    later = words([transition.after for transition in transitions])
     delays = rng.integers(0, CHANGE_STEPS, len(drawn))
     return Trials(
         drawn.actions, drawn.objects, drawn.alpha, drawn.discs, LabelChanges(*first, *later, delays)

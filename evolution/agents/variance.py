@@ -63,12 +63,12 @@ class VarianceShares:
         """Mean shares of object, action and crossed between two times [s], bounds included; else NaN."""
         inside = (self.time >= start - 1e-9) & (self.time <= stop + 1e-9) & np.isfinite(self.object)
         shares = (self.object, self.action, self.crossed)
-        o, a, c = (float(each[inside].mean()) if inside.any() else float("nan") for each in shares)
+        o, a, c = (float(share[inside].mean()) if inside.any() else float("nan") for share in shares)
         return o, a, c
 
     def arrays(self) -> dict[str, NDArray]:
         """Its arrays by name, ready for an .npz."""
-        return {each.name: getattr(self, each.name) for each in fields(self)}
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
 def events_of(behaviour: Behaviour) -> dict[str, NDArray[np.int64]]:
@@ -148,7 +148,7 @@ def _split(cells: NDArray[np.float64], within: NDArray[np.float64]) -> NDArray[n
     of_action, of_object = cells.mean(axis=1, keepdims=True), cells.mean(axis=0, keepdims=True)
     grand = cells.mean(axis=(0, 1), keepdims=True)
     parts = (of_object - grand, of_action - grand, cells - of_action - of_object + grand)
-    explained = [np.square(each).mean(axis=(0, 1)).sum(axis=-1) for each in parts]
+    explained = [np.square(part).mean(axis=(0, 1)).sum(axis=-1) for part in parts]
     return np.stack([*explained, within.mean(axis=(0, 1)).sum(axis=-1)])
 
 

@@ -122,7 +122,7 @@ def draw_lesions(axes: Axes, scores: LesionScores) -> None:
     """Instructions by lesions: success in per cent, a mean over agents."""
     table = np.vstack([scores.intact.mean(axis=0), scores.lesioned.mean(axis=0)]).T  # [9, 1 + lesions]
     # Room between the intact agent, the lesions it should not mind, and those it should.
-    places = np.array([0.0, *(1.3 + i + 0.3 * (not each.harmless) for i, each in enumerate(LESIONS))])
+    places = np.array([0.0, *(1.3 + i + 0.3 * (not lesion.harmless) for i, lesion in enumerate(LESIONS))])
     for row, instruction in enumerate(scores.condition.instructions):
         for place, share in zip(places, table[row], strict=True):
             axes.add_patch(
@@ -135,10 +135,10 @@ def draw_lesions(axes: Axes, scores: LesionScores) -> None:
             frame.set(linestyle=DASHES, linewidth=1.2, zorder=3, clip_on=False)
             axes.add_patch(frame)
     axes.set(xlim=(0, places[-1] + 1), ylim=(9, 0))
-    axes.set_yticks(np.arange(9) + 0.5, [str(each) for each in scores.condition.instructions])
+    axes.set_yticks(np.arange(9) + 0.5, [str(word) for word in scores.condition.instructions])
     for label, instruction in zip(axes.get_yticklabels(), scores.condition.instructions, strict=True):
         label.set(color=OBJECT_COLOURS[instruction.object], fontweight="bold")
-    names = ["intact", *(f"{each.word} word\n{each.manner}\n{each.time}" for each in LESIONS)]
+    names = ["intact", *(f"{lesion.word} word\n{lesion.manner}\n{lesion.time}" for lesion in LESIONS)]
     axes.set_xticks(places + 0.5, names, fontsize=8)
     axes.tick_params(length=0, pad=6, top=False, labeltop=True, labelbottom=False)
     axes.spines[:].set_visible(False)

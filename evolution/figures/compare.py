@@ -102,8 +102,8 @@ def draw_numbers(
                 theirs = 100 * number.published / (published.RUNS if runs else 1)
                 axes.plot([theirs] * 2, [row - 0.38, row + 0.38], color=PAPER, lw=2.6, solid_capstyle="butt")
             if len(number.runs):
-                each = 100 * number.runs
-                axes.plot(each, np.full(len(each), row + offset), "o", ms=3, alpha=0.3, color=colour)
+                shares = 100 * number.runs
+                axes.plot(shares, np.full(len(shares), row + offset), "o", ms=3, alpha=0.3, color=colour)
             if np.isfinite(number.ours):
                 axes.plot(scale * number.ours, row + offset, "o", ms=6.5, color=colour, mec="white", mew=0.7)
     axes.set_yticks(range(len(shown)), list(shown.values()), fontsize=8.5)
@@ -115,8 +115,8 @@ def draw_numbers(
 
 def _lowest(conditions: Mapping[Condition, Mapping[str, list[KeyNumber]]]) -> float:
     """The lowest plateau of all, so that all panels share one scale."""
-    numbers = [each for by_name in conditions.values() for own in by_name.values() for each in own]
-    lowest = [float(each.runs.min()) for each in numbers if each.name == PLATEAU and len(each.runs)]
+    numbers = [number for by_name in conditions.values() for own in by_name.values() for number in own]
+    lowest = [float(number.runs.min()) for number in numbers if number.name == PLATEAU and len(number.runs)]
     return min([*lowest, LARGEST_FITNESS - 0.1])
 
 

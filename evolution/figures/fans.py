@@ -33,7 +33,9 @@ def fans_figure(
     The representative is the observed agent whose success on the nine instructions is nearest to the mean
     of its class.
     """
-    shown = {kind: each.representative for kind, each in classes.items() if each.representative}
+    shown = {
+        kind: behaviour.representative for kind, behaviour in classes.items() if behaviour.representative
+    }
     if not shown:
         return None
     instructions = condition.instructions

@@ -41,13 +41,15 @@ MANY: Final = 150
 
 def generalisers_figure(results: Results) -> Figure:
     """Fully and partially compositional agents among the five best of each late generation, run by run."""
-    heights = [[_height(each, run) for run in range(len(each.runs))] for each in results.conditions.values()]
-    tall = [max(sum(each), FLAT) for each in heights]
+    heights = [
+        [_height(found, run) for run in range(len(found.runs))] for found in results.conditions.values()
+    ]
+    tall = [max(sum(own), FLAT) for own in heights]
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 1.5 + sum(tall) + 0.45 * len(tall)), layout="constrained")
         panels = figure.subplots(len(tall), 1, sharex=True, squeeze=False, height_ratios=tall)[:, 0]
-        for axes, own, (condition, each) in zip(panels, heights, results.conditions.items(), strict=True):
-            _draw_condition(axes, each, own)
+        for axes, own, (condition, found) in zip(panels, heights, results.conditions.items(), strict=True):
+            _draw_condition(axes, found, own)
             axes.set_title(TITLES[condition], loc="left", fontweight="bold")
         panels[-1].set_xlabel("generation")
         figure.legend(handles=_handles(), loc="outside lower center", frameon=False, ncols=2, fontsize=8.5)

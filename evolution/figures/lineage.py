@@ -76,7 +76,7 @@ def lineage_figure(scores: LineageScores, origin: str) -> Figure:
 
 def skill_rows(scores: LineageScores) -> list[tuple[str, Sequence[Row]]]:
     """The rows of the figure by the title of their group."""
-    actions = [each.action for each in scores.condition.instructions[::3]]
+    actions = [word.action for word in scores.condition.instructions[::3]]
     held, beside = scores.held_bent, scores.reached_bent.shares
     bent = [
         Row(f"hearing {action.name}", BENT_COLOUR, *_column(held, column), beside=beside[:, column])
@@ -134,8 +134,8 @@ def _place(axes: Axes, generation: int) -> float:
 
 def _draw_generations(axes: Axes, n_generations: int) -> None:
     """The axis below the lowest row."""
-    ticks = [each for each in TICKS if each < n_generations]
-    axes.set_xticks(ticks, [f"{each:,}" for each in ticks], fontsize=8.5)
+    ticks = [tick for tick in TICKS if tick < n_generations]
+    axes.set_xticks(ticks, [f"{tick:,}" for tick in ticks], fontsize=8.5)
     axes.tick_params(axis="x", length=3, color=FAINT)
     axes.set_xlabel("generation (square-root scale)")
 

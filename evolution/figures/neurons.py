@@ -68,8 +68,8 @@ def variance_figure(shares: Mapping[str, VarianceShares], origin: str) -> Figure
         head(figure, "Which word the activity follows", origin)
         panels = figure.subplots(1, len(shares), sharey=True, squeeze=False)[0]
         figure.subplots_adjust(left=0.085, right=0.985, top=0.755, bottom=0.235, wspace=0.06)
-        for axes, (event, each) in zip(panels, shares.items(), strict=True):
-            draw_variance(axes, each)
+        for axes, (event, own) in zip(panels, shares.items(), strict=True):
+            draw_variance(axes, own)
             axes.set_title(event, loc="left", fontsize=10, fontweight="bold")
             axes.set_xlabel("time from it [s]")
         panels[0].set_ylabel("share of variance [%]")
@@ -100,14 +100,14 @@ def draw_variance(axes: Axes, shares: VarianceShares) -> None:
 def object_handles() -> list[Line2D]:
     """Colours of the object words."""
     return [
-        Line2D([], [], color=OBJECT_COLOURS[each], lw=2.5, label=each.name.capitalize())
-        for each in ObjectWord
+        Line2D([], [], color=OBJECT_COLOURS[word], lw=2.5, label=word.name.capitalize())
+        for word in ObjectWord
     ]
 
 
 def _action_handles(behaviour: Behaviour) -> list[Line2D]:
     """Line styles of the action words."""
-    actions = [each.action.name for each in behaviour.condition.instructions[::3]]
+    actions = [word.action.name for word in behaviour.condition.instructions[::3]]
     return [
         Line2D([], [], color=INK, lw=1.6, ls=style, label=name)
         for name, style in zip(actions, ACTION_STYLES, strict=True)

@@ -109,16 +109,16 @@ def shortened(drawing: bytes) -> bytes:
 def _dense_layers_as_pixels(figure: Figure) -> Iterator[None]:
     """While open, patches, lines and collections of all axes are drawn as pixels."""
     layers: list[Artist] = [
-        each for axes in figure.axes for each in (*axes.collections, *axes.patches, *axes.lines)
+        layer for axes in figure.axes for layer in (*axes.collections, *axes.patches, *axes.lines)
     ]
-    before = [each.get_rasterized() for each in layers]
-    for each in layers:
-        each.set_rasterized(True)
+    before = [layer.get_rasterized() for layer in layers]
+    for layer in layers:
+        layer.set_rasterized(True)
     try:
         yield
     finally:
-        for each, old in zip(layers, before, strict=True):
-            each.set_rasterized(old)
+        for layer, old in zip(layers, before, strict=True):
+            layer.set_rasterized(old)
 
 
 def _saved(figure: Figure, kind: str, resolution: int) -> bytes:

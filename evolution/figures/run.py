@@ -41,8 +41,8 @@ def draw_heat_map(axes: Axes, evaluation: Evaluation) -> None:
     axes.imshow(shares, cmap=SUCCESS_MAP, vmin=0.0, vmax=1.0, aspect="auto")
     axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False, pad=6)
     actions = (ActionWord.MOVE, ActionWord.TOUCH, evaluation.condition.third_action)
-    axes.set_yticks(range(3), [each.name for each in actions], fontsize=12)
-    axes.set_xticks(range(3), [each.name.capitalize() for each in ObjectWord], fontsize=13, fontweight="bold")
+    axes.set_yticks(range(3), [word.name for word in actions], fontsize=12)
+    axes.set_xticks(range(3), [word.name.capitalize() for word in ObjectWord], fontsize=13, fontweight="bold")
     for label, colour in zip(axes.get_xticklabels(), OBJECT_COLOURS.values(), strict=True):
         label.set_color(colour)
     for edge in axes.spines.values():

@@ -25,7 +25,7 @@ SHOWN_PER_AREA: Final = 3
 def state_space_figure(behaviour: Behaviour, origin: str) -> Figure:
     """A page with the paths of the three outputs in the plane that shows most of them, by action word."""
     mean, plane, shares = principal_plane(behaviour.activity)
-    actions = [each.action.name for each in behaviour.condition.instructions[::3]]
+    actions = [word.action.name for word in behaviour.condition.instructions[::3]]
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 4.3))
         head(figure, "The paths through the network's states", origin)

@@ -27,18 +27,16 @@ from evolution.search.randomness import Purpose, generator
 
 def behaviours_of(observed: Sequence[tuple[RunFolder, Observation]]) -> Behaviours:
     """Each condition's classes."""
-    by_condition = {
-        c: [(run, each) for run, each in observed if run.config.condition is c] for c in Condition
-    }
+    by_condition = {c: [(run, own) for run, own in observed if run.config.condition is c] for c in Condition}
     return {c: class_behaviours(c, own) for c, own in by_condition.items() if own}
 
 
 def behaviours_kept(results: Results, sampling: Sampling) -> tuple[Behaviours, list[str]]:
     """What was observed of an analysed experiment, and a sentence for each run with classes that was not."""
     observed, missing = [], []
-    for each in results.conditions.values():
-        for index, run in enumerate(each.runs):
-            if any(each.members[kind][index] for kind in AgentClass):
+    for found in results.conditions.values():
+        for index, run in enumerate(found.runs):
+            if any(found.members[kind][index] for kind in AgentClass):
                 try:
                     observed.append((run, read_observation(run, sampling)))
                 except ValueError as error:
@@ -48,7 +46,7 @@ def behaviours_kept(results: Results, sampling: Sampling) -> tuple[Behaviours, l
 
 def class_figures(behaviours: Behaviours, sampling: Sampling) -> dict[str, Figure]:
     """The figures, by the name of their files; none without an agent of a class."""
-    if not any(len(each.seeds) for each in _all(behaviours)):
+    if not any(len(behaviour.seeds) for behaviour in _all(behaviours)):
         return {}
     figures = {"classes": classes_figure(behaviours)}
     for condition, classes in behaviours.items():
@@ -148,4 +146,4 @@ def _text(value: float) -> str:
 
 
 def _all(behaviours: Mapping[Condition, Mapping[AgentClass, ClassBehaviour]]) -> list[ClassBehaviour]:
-    return [each for classes in behaviours.values() for each in classes.values()]
+    return [behaviour for classes in behaviours.values() for behaviour in classes.values()]

@@ -47,8 +47,8 @@ def write_results(results: Results, folder: Path) -> list[Path]:
 def arrays_of(results: Results) -> dict[str, np.ndarray]:
     """The numbers behind the figures, condition by condition; all trials are out of 80."""
     arrays = {}
-    for condition, each in results.conditions.items():
-        for name, array in _condition_arrays(each).items():
+    for condition, found in results.conditions.items():
+        for name, array in _condition_arrays(found).items():
             arrays[f"{condition}.{name}"] = array
     return arrays
 
@@ -56,27 +56,27 @@ def arrays_of(results: Results) -> dict[str, np.ndarray]:
 def summary(results: Results) -> str:
     """The result in a few sentences."""
     sentences = []
-    for condition, each in results.conditions.items():
-        if not each.runs:
+    for condition, found in results.conditions.items():
+        if not found.runs:
             sentences.append(f"{condition}: no run can be analysed.")
             continue
-        share = each.share_in_top("I")
+        share = found.share_in_top("I")
         low, high = interval_of_mean(share)
         top = f"{100 * share.mean():.1f} % of the agents [{100 * low:.1f}, {100 * high:.1f}]"
         sentences.append(
-            f"{condition}: {each.at_plateau} of {len(each.runs)} runs end at the largest fitness; {top} "
+            f"{condition}: {found.at_plateau} of {len(found.runs)} runs end at the largest fitness; {top} "
             "are in category 10 of sub-task I."
         )
-        sentences.append(generalisers_sentence(each))
+        sentences.append(generalisers_sentence(found))
     return "\n".join([*sentences, *results.missing])
 
 
-def _condition_arrays(each: ConditionResults) -> dict[str, np.ndarray]:
+def _condition_arrays(found: ConditionResults) -> dict[str, np.ndarray]:
     return {
-        "instructions": np.array([str(instruction) for instruction in each.condition.instructions]),
-        "seeds": each.seeds,
-        "best": each.best.astype(np.float32),
-        "first_solved": each.first_solved,
-        "generations": each.generations,
-        "successes": each.successes.astype(np.uint8),
+        "instructions": np.array([str(instruction) for instruction in found.condition.instructions]),
+        "seeds": found.seeds,
+        "best": found.best.astype(np.float32),
+        "first_solved": found.first_solved,
+        "generations": found.generations,
+        "successes": found.successes.astype(np.uint8),
     }

@@ -76,8 +76,8 @@ def render(results: Results, home: Path) -> str:
 def _content(results: Results, home: Path) -> dict[str, Any]:
     """Everything the template shows."""
     shown = replace(results, conditions={c: e for c, e in results.conditions.items() if len(e.runs)})
-    best = [(each, best_agent(each)) for each in shown.conditions.values()]
-    agents = [_agent(each, agent, results.experiment.path) for each, agent in best if agent is not None]
+    best = [(found, best_agent(found)) for found in shown.conditions.values()]
+    agents = [_agent(found, agent, results.experiment.path) for found, agent in best if agent is not None]
     figures = all_figures(shown) if shown.conditions else {}
     experiment = results.experiment
     return {
@@ -85,19 +85,19 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "sentences": result_sentences(results),
         "missing": results.missing,
         "sizes": departures_in_size(results),
-        "titles": [TITLES[each] for each in shown.conditions],
+        "titles": [TITLES[condition] for condition in shown.conditions],
         "main_lines": main_lines(shown),
         "category_tables": category_tables(shown),
-        "generalisers": [generalisers_sentence(each) for each in shown.conditions.values()],
+        "generalisers": [generalisers_sentence(found) for found in shown.conditions.values()],
         "runs": shown_runs(shown),
         "tests": shown_tests(results),
         "standings": [standing_of(run.path, run.config) for run in experiment.all_runs],
         "subtasks": SUBTASKS,
-        "classes": [str(each) for each in AgentClass],
+        "classes": [str(kind) for kind in AgentClass],
         "figures": {name: figure_uri(figure) for name, figure in figures.items()},
         "agents": agents,
         **_classes(shown),
-        "recordings": _embedded([each["recordings"] for each in agents]),
+        "recordings": _embedded([agent["recordings"] for agent in agents]),
         "trials": TRIALS,
         "films": list(_films(experiment.path, home)),
         "settings": settings_rows(results),
@@ -107,16 +107,16 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
     }
 
 
-def _agent(each: ConditionResults, agent: NotableAgent, experiment: Path) -> dict[str, Any]:
+def _agent(found: ConditionResults, agent: NotableAgent, experiment: Path) -> dict[str, Any]:
     """The best agent of a condition: its heat map, its recordings, and figures that lie beside its run."""
-    instructions = each.condition.instructions
+    instructions = found.condition.instructions
     cells = [
         _cell(str(instruction), instruction in NON_EXPERIENCED, int(agent.successes[index]))
         for index, instruction in enumerate(instructions)
     ]
     return {
-        "condition": TITLES[each.condition],
-        "what": standing_of_best(each),
+        "condition": TITLES[found.condition],
+        "what": standing_of_best(found),
         "seed": agent.run.config.seed,
         "generation": agent.generation,
         "rank": agent.rank,
@@ -132,7 +132,7 @@ def _classes(shown: Results) -> dict[str, Any]:
     """What was observed of the classes of agents, and how to observe what was not."""
     behaviours, missing = behaviours_kept(shown, Sampling())
     figures = class_figures(behaviours, Sampling())
-    some = any(each.members[kind].any() for each in shown.conditions.values() for kind in AgentClass)
+    some = any(found.members[kind].any() for found in shown.conditions.values() for kind in AgentClass)
     return {
         "class_figures": [figure_uri(figure) for figure in figures.values()],
         "class_missing": missing,

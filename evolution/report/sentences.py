@@ -21,16 +21,16 @@ COMPARED = f"{AgentClass.FULL} agents"
 
 def result_sentences(results: Results) -> list[str]:
     """How far evolution came, who generalises, and whether the conditions differ."""
-    shown = {c: each for c, each in results.conditions.items() if len(each.runs)}
+    shown = {c: found for c, found in results.conditions.items() if len(found.runs)}
     if not shown:
         return ["No run is finished and tested yet, so there is no result."]
     return [_evolution(shown), _generalisation(shown), _difference(results, shown)]
 
 
-def standing_of_best(each: ConditionResults) -> str:
+def standing_of_best(found: ConditionResults) -> str:
     """What the best agent of a condition is called, for its heading."""
     return (
-        "best generaliser" if each.members[AgentClass.FULL].any() else "agent that comes nearest to all nine"
+        "best generaliser" if found.members[AgentClass.FULL].any() else "agent that comes nearest to all nine"
     )
 
 
@@ -54,14 +54,14 @@ def departures_in_size(results: Results) -> list[str]:
 
 
 def _evolution(shown: dict[Condition, ConditionResults]) -> str:
-    counts = _and(f"{of(each.at_plateau, len(each.runs))} {TITLES[c]} runs" for c, each in shown.items())
+    counts = _and(f"{of(own.at_plateau, len(own.runs))} {TITLES[c]} runs" for c, own in shown.items())
     return f"{counts} end at the largest fitness, 18/7 = {LARGEST_FITNESS:.3f}; in the paper all do."
 
 
 def _generalisation(shown: dict[Condition, ConditionResults]) -> str:
     """Runs with fully compositional agents, and what the best of each condition makes of the two."""
-    found = {c: runs_with_generalisers(each) for c, each in shown.items()}
-    best = "; ".join(_best(c, each) for c, each in shown.items())
+    found = {c: runs_with_generalisers(own) for c, own in shown.items()}
+    best = "; ".join(_best(c, own) for c, own in shown.items())
     paper = f"in the paper in {of(published.RUNS_WITH_GENERALISERS, published.RUNS)} With-Indicate runs"
     if not any(found.values()):
         return (
@@ -72,8 +72,8 @@ def _generalisation(shown: dict[Condition, ConditionResults]) -> str:
     return f"Agents that understand both instructions they never met arise in {counts} ({paper}): {best}."
 
 
-def _best(condition: Condition, each: ConditionResults) -> str:
-    agent = best_agent(each)
+def _best(condition: Condition, found: ConditionResults) -> str:
+    agent = best_agent(found)
     if agent is None:
         return f"{TITLES[condition]} has no agent"
     successes = dict(zip(condition.instructions, map(int, agent.successes), strict=True))
@@ -90,7 +90,7 @@ def _difference(results: Results, shown: dict[Condition, ConditionResults]) -> s
         return f"Only {TITLES[only]} runs can be analysed, so the conditions are not compared."
     first, second = (percent(mean) for mean in results.comparisons[COMPARED].means)
     share = f"of the With-Indicate agents {first} are fully compositional, of the With-Ignore agents {second}"
-    p, name = min((each.mann_whitney_p, name) for name, each in results.comparisons.items())
+    p, name = min((comparison.mann_whitney_p, name) for name, comparison in results.comparisons.items())
     if p >= LEVEL:
         return (
             f"No difference between the conditions can be claimed (smallest p of all comparisons, runs being "

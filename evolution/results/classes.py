@@ -53,7 +53,7 @@ class ClassBehaviour:
     @property
     def known(self) -> NDArray[np.bool_]:
         """[9], which instructions were met during evolution."""
-        return np.array([each not in NON_EXPERIENCED for each in self.condition.instructions])
+        return np.array([word not in NON_EXPERIENCED for word in self.condition.instructions])
 
     def success(self, *, known: bool) -> NDArray[np.float64]:
         """Mean success of the experienced (or the never-met) instructions, intact and lesioned, [R, 9]."""

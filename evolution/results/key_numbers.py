@@ -54,25 +54,25 @@ def class_name(kind: AgentClass) -> str:
     return f"share of {kind} agents"
 
 
-def key_numbers(each: ConditionResults) -> list[KeyNumber]:
+def key_numbers(found: ConditionResults) -> list[KeyNumber]:
     """All key numbers of a condition."""
-    n, indicate = len(each.runs), each.condition is Condition.WITH_INDICATE
-    full = each.members[AgentClass.FULL] > 0
+    n, indicate = len(found.runs), found.condition is Condition.WITH_INDICATE
+    full = found.members[AgentClass.FULL] > 0
     with_full = float(published.RUNS_WITH_GENERALISERS) if indicate else None
     numbers = [
         KeyNumber(
-            PLATEAU, published.PLATEAU, float(np.median(each.plateau)) if n else np.nan, n, each.plateau
+            PLATEAU, published.PLATEAU, float(np.median(found.plateau)) if n else np.nan, n, found.plateau
         ),
-        _count(AT_LIMIT, float(published.RUNS), each.at_plateau, n),
-        _count(SOLVED, None, int((each.first_solved >= 0).sum()), n),
+        _count(AT_LIMIT, float(published.RUNS), found.at_plateau, n),
+        _count(SOLVED, None, int((found.first_solved >= 0).sum()), n),
         _count(WITH_FULL, with_full, int(full.sum()), n),
     ]
     for column, name in enumerate(SUBTASKS):
-        theirs = published.TABLE_II[each.condition][-1, column] / published.AGENTS
-        numbers.append(_share(top_name(name), float(theirs), each.share_in_top(name), each.n_agents))
+        theirs = published.TABLE_II[found.condition][-1, column] / published.AGENTS
+        numbers.append(_share(top_name(name), float(theirs), found.share_in_top(name), found.n_agents))
     for kind in AgentClass:
-        numbers.append(_share(class_name(kind), None, each.share_of_class(kind), each.n_agents))
-    for kind, outcome in each.transitions.items():
+        numbers.append(_share(class_name(kind), None, found.share_of_class(kind), found.n_agents))
+    for kind, outcome in found.transitions.items():
         for word, passed in (("action", outcome.action_passed), ("object", outcome.object_passed)):
             ours = passed / outcome.agents if outcome.agents else np.nan
             numbers.append(KeyNumber(pass_name(kind, word), None, ours, outcome.agents, np.empty(0)))

@@ -47,7 +47,7 @@ def best_agent(results: ConditionResults) -> NotableAgent | None:
 
 def best_specialist(results: ConditionResults) -> NotableAgent | None:
     """The agent that masters the experienced instructions best and never a never-met one."""
-    order = [results.condition.instructions.index(each) for each in NON_EXPERIENCED]
+    order = [results.condition.instructions.index(word) for word in NON_EXPERIENCED]
     known = [i for i in range(N_INSTRUCTIONS) if i not in order]
     untouched = (results.successes[..., order] == 0).all(axis=-1)
     skills = results.successes[..., known]
@@ -96,7 +96,7 @@ def _write(agent: NotableAgent, path: Path) -> None:
             "genotypes": genotypes[agent.rank : agent.rank + 1],
             "generations": np.array([agent.generation]),
             "ranks": np.array([agent.rank]),
-            "instructions": np.array([str(each) for each in config.condition.instructions]),
+            "instructions": np.array([str(word) for word in config.condition.instructions]),
             "trials_per_instruction": np.array(TRIALS),
             "successes": agent.successes[np.newaxis],
             "config": np.array(config.to_toml()),

@@ -197,5 +197,5 @@ class Results:
     @property
     def missing(self) -> tuple[str, ...]:
         """One sentence for everything that is missing or was left out."""
-        left_out = [sentence for each in self.conditions.values() for sentence in each.missing]
+        left_out = [sentence for found in self.conditions.values() for sentence in found.missing]
         return (*self.experiment.unreadable, *self.experiment.absent, *left_out)

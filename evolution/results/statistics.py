@@ -104,7 +104,7 @@ def sign_flip_test(differences: NDArray[np.float64]) -> float:
 
         if np.ptp(differences) == 0:
             return 0.0 if differences.any() else 1.0
-        return float(ttest_1samp(differences, 0.0).pvalue)
+        return float(ttest_1samp(differences, 0.0)[1])  # type: ignore[arg-type] - typed as object
     signs = 1 - 2 * ((np.arange(2**n)[:, np.newaxis] >> np.arange(n)) & 1)  # [2^n, n]
     off = np.abs(signs @ differences)
     return float((off >= abs(differences.sum()) - 1e-12).mean())
@@ -131,7 +131,7 @@ def bootstrap_interval(
         rng: Draws the samples.
         level: Of confidence.
     """
-    samples = [each[rng.integers(0, len(each), (BOOTSTRAP_SAMPLES, len(each)))] for each in groups]
+    samples = [group[rng.integers(0, len(group), (BOOTSTRAP_SAMPLES, len(group)))] for group in groups]
     low, high = np.quantile(statistic(samples), [(1 - level) / 2, (1 + level) / 2])
     return float(low), float(high)
 

@@ -57,7 +57,7 @@ def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[s
             tested.append(_read(run))
         except ValueError as error:
             missing.append(f"{name_of(run)}: left out, {error}")
-    lengths = {each.run.config.settings.generations for each in tested}
+    lengths = {found.run.config.settings.generations for found in tested}
     if len(lengths) > 1:
         raise ValueError(f"the runs have {sorted(lengths)} generations; analyse runs of one length together")
     return tested, missing

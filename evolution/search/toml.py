@@ -77,7 +77,7 @@ def _check_depth(values: Mapping[str, Any]) -> None:
     """Refuse values in values in values, which could not even be shown."""
     level: list[Any] = [values]
     for _ in range(DEEPEST):
-        groups = [each.values() if isinstance(each, Mapping) else each for each in level]
+        groups = [value.values() if isinstance(value, Mapping) else value for value in level]
         level = [value for group in groups for value in group if isinstance(value, (Mapping, list))]
     if level:
         raise ValueError(f"its values are nested deeper than {DEEPEST} levels")

@@ -43,7 +43,7 @@ class Effect:
     @property
     def seeds(self) -> list[int]:
         """Seeds that were evolved in all worlds."""
-        return sorted(set.intersection(*(set(_by_seed(each)) for pair in self.pairs for each in pair)))
+        return sorted(set.intersection(*(set(_by_seed(variant)) for pair in self.pairs for variant in pair)))
 
     @property
     def differences(self) -> NDArray[np.float64]:
@@ -77,7 +77,7 @@ def effects(variants: Sequence[VariantMeasures]) -> list[Effect]:
             key = (changed.condition, name, getattr(_readings(changed), name))
             found.setdefault(key, []).append((without, changed))
     listed = [Effect(*key, tuple(pairs)) for key, pairs in found.items()]
-    return [each for each in listed if each.seeds]
+    return [effect for effect in listed if effect.seeds]
 
 
 def holm(p: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -129,7 +129,9 @@ def _tested(variants: Sequence[VariantMeasures], condition: Condition) -> list[T
 
 
 def _differing(one: Readings, other: Readings) -> list[str]:
-    return [each.name for each in fields(Readings) if getattr(one, each.name) != getattr(other, each.name)]
+    return [
+        field.name for field in fields(Readings) if getattr(one, field.name) != getattr(other, field.name)
+    ]
 
 
 def _readings(variant: VariantMeasures) -> Readings:
@@ -149,4 +151,4 @@ def _plateaus(variant: VariantMeasures, seeds: Sequence[int]) -> NDArray[np.floa
 def _shown(value: object) -> object:
     if isinstance(value, float):
         return f"{value:g}"
-    return " ".join(f"{each:g}" for each in value) if isinstance(value, tuple) else value
+    return " ".join(f"{number:g}" for number in value) if isinstance(value, tuple) else value

@@ -42,7 +42,7 @@ class VariantMeasures:
     @property
     def plateaus(self) -> NDArray[np.float64]:
         """[R]."""
-        return np.array([each.plateau for each in self.runs])
+        return np.array([run.plateau for run in self.runs])
 
     @property
     def solved(self) -> NDArray[np.bool_]:
@@ -57,22 +57,22 @@ class VariantMeasures:
     @property
     def top_shares(self) -> NDArray[np.float64]:
         """Share of agents in category 10 of the sub-tasks, [R, 4]."""
-        return np.array([each.top_shares for each in self.runs])
+        return np.array([run.top_shares for run in self.runs])
 
     def class_shares(self, kind: AgentClass) -> NDArray[np.float64]:
         """Share of agents in a class, [R]."""
-        return np.array([each.class_shares[kind] for each in self.runs])
+        return np.array([run.class_shares[kind] for run in self.runs])
 
     @property
     def success_by_area(self) -> NDArray[np.float64]:
         """Mean over runs, [9, 2]."""
-        return np.mean([each.success_by_area for each in self.runs], axis=0)
+        return np.mean([run.success_by_area for run in self.runs], axis=0)
 
     @property
     def weakest(self) -> tuple[Instruction, str, float]:
         """The experienced instruction and start area with the lowest success, and that success."""
         order = self.condition.instructions
-        known = [order.index(each) for each in self.condition.experienced]
+        known = [order.index(word) for word in self.condition.experienced]
         success = self.success_by_area[known]
         row, area = np.unravel_index(int(success.argmin()), success.shape)
         return order[known[row]], AREAS[area], float(success.min())
@@ -81,9 +81,9 @@ class VariantMeasures:
 def group(measured: Iterable[tuple[str, RunMeasures]]) -> list[VariantMeasures]:
     """Runs named by their variant, put together in the order in which variants first appear."""
     groups: dict[tuple[str, Condition, int], list[RunMeasures]] = {}
-    for name, each in measured:
-        key = (name, each.config.condition, each.config.settings.generations)
-        groups.setdefault(key, []).append(each)
+    for name, run in measured:
+        key = (name, run.config.condition, run.config.settings.generations)
+        groups.setdefault(key, []).append(run)
     return [
         VariantMeasures(*key, tuple(sorted(runs, key=lambda run: run.config.seed)))
         for key, runs in groups.items()
@@ -96,8 +96,10 @@ def nearest(variants: Sequence[VariantMeasures], n: int = 3) -> list[VariantMeas
     Each is ranked by how far its mean plateau is from the published one, and by how far its mean share of
     agents in category 10 of sub-task I is from Table II's; the sum of both ranks decides.
     """
-    plateau_gaps = np.array([abs(each.plateaus.mean() - LARGEST_FITNESS) for each in variants])
-    share_gaps = np.array([abs(each.top_shares[:, 0].mean() - _published_share(each)) for each in variants])
+    plateau_gaps = np.array([abs(variant.plateaus.mean() - LARGEST_FITNESS) for variant in variants])
+    share_gaps = np.array(
+        [abs(variant.top_shares[:, 0].mean() - _published_share(variant)) for variant in variants]
+    )
     order = np.argsort(midranks(plateau_gaps) + midranks(share_gaps), kind="stable")
     return [variants[i] for i in order[:n]]
 
