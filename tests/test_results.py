@@ -11,7 +11,7 @@ from arm2d import Condition
 from evolution.agents.classes import Sampling
 from evolution.agents.subtasks import categories, count_table
 from evolution.report.classes import class_run_table, class_table
-from evolution.report.comparison import comparison_table
+from evolution.report.comparison import key_number_table
 from evolution.report.rows import (
     generaliser_table,
     genotype_table,
@@ -107,7 +107,7 @@ STORED: Final = {
     "generaliser-genotypes.csv": genotype_table(EMPTY),
     "classes.csv": class_table([], Sampling()),
     "classes-runs.csv": class_run_table([]),
-    "readings/favourite/comparison.csv": comparison_table({"default": EMPTY, "mutation-sd-0.03": EMPTY}),
+    "readings/favourite/comparison.csv": key_number_table({"default": EMPTY, "mutation-sd-0.03": EMPTY}),
     **{
         f"readings/{part}-{name}.csv": table
         for part in ("screening", "finalists", "around", "confirmation")

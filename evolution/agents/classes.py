@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.agents.behaviour import record_behaviour
 from evolution.agents.lesions import LESIONS, lesion_scores
 from evolution.agents.parts import late_history
@@ -76,6 +77,8 @@ class Observation:
     windows: NDArray[np.float64]
     shares: NDArray[np.float64]
 
+    __repr__ = brief
+
 
 def observation_path(run: RunFolder, sampling: Sampling) -> Path:
     """Where the measurements are kept."""
@@ -122,7 +125,7 @@ def read_observation(run: RunFolder, sampling: Sampling = Sampling()) -> Observa
         ValueError: If nothing was.
         DamagedFileError: If the file is damaged.
     """
-    path, next_move = observation_path(run, sampling), f"wordarm classes {run.path}"
+    path, next_move = observation_path(run, sampling), f"wordarm behaviour {run.path} --classes"
     if not path.exists():
         raise ValueError(f"{path} is missing; go on with: {next_move}")
     try:

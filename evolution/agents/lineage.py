@@ -2,7 +2,8 @@
 
 Parents are recorded as indices, so the line is first walked backwards through them; then the run's
 populations are bred again from generation 0 on, once, and the ancestor of each is kept. Nothing is
-scored. Axes: G generations of the line, 84 genes.
+scored. Where a child has two parents (reading `crossover`), the line follows the first, whose genes stand
+before the cut; genes after it then come from outside the line. Axes: G generations of the line, 84 genes.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
+from arm2d.records import brief
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History
 from evolution.runs.recorded import recorded_history
@@ -38,6 +40,8 @@ class Lineage:
     genotypes: NDArray[np.float64]
     fitness: NDArray[np.float64]
     changed: NDArray[np.bool_]
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         for field in fields(self):

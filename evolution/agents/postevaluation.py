@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import draw_trials, run_trials
+from arm2d.records import brief
 from evolution.agents.parts import LateTest, best_genotypes
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array, check_range
@@ -40,6 +41,8 @@ class PostEvaluation:
 
     generations: NDArray[np.int32]
     successes: NDArray[np.int16]
+
+    __repr__ = brief
 
     @property
     def agents(self) -> NDArray[np.int16]:
@@ -84,5 +87,14 @@ POST_EVALUATION: Final = LateTest("postevaluation", PostEvaluation, _test, _chec
 
 
 def post_evaluate(run: RunFolder, report: Callable[[int, int], None] | None = None) -> PostEvaluation:
-    """Post-evaluate a finished run, or go on where it was left; see `LateTest.complete`."""
+    """Post-evaluate a finished run, or go on where it was left; what is there already is read.
+
+    Args:
+        run: The run.
+        report: Told after every part how many of how many are done.
+
+    Raises:
+        ValueError: If the run is not finished.
+        DamagedFileError: If a part of the run, or of the results, is damaged.
+    """
     return POST_EVALUATION.complete(run, report)

@@ -30,6 +30,7 @@ from arm2d import (
     draw_trials,
     run_trials,
 )
+from arm2d.records import brief
 from evolution.agents.parts import LateTest, best_genotypes, joined
 from evolution.agents.postevaluation import POST_EVALUATION, TRIALS
 from evolution.agents.subtasks import AgentClass, classify
@@ -79,6 +80,8 @@ class TransitionTest:
     classes: NDArray[np.int8]
     action: NDArray[np.int16]
     object: NDArray[np.int16]
+
+    __repr__ = brief
 
 
 def action_transitions(condition: Condition) -> tuple[Transition, ...]:
@@ -187,5 +190,14 @@ TRANSITION_TEST: Final = LateTest("transitions", TransitionTest, _test, _check)
 
 
 def run_transition_test(run: RunFolder, report: Callable[[int, int], None] | None = None) -> TransitionTest:
-    """Test a post-evaluated run, or go on where it was left; see `LateTest.complete`."""
+    """Test a post-evaluated run, or go on where it was left; what is there already is read.
+
+    Args:
+        run: The run.
+        report: Told after every part how many of how many are done.
+
+    Raises:
+        ValueError: If the run is not post-evaluated.
+        DamagedFileError: If a file is damaged.
+    """
     return TRANSITION_TEST.complete(run, report)

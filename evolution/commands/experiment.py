@@ -1,11 +1,11 @@
-"""`wordarm experiment`: all runs of an experiment file."""
+"""`wordarm experiment` and `wordarm status`: all runs of an experiment file, and how far they have come."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 from tyro.conf import Positional, arg
 
@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from evolution.experiments.plan import Plan
     from evolution.experiments.spec import ExperimentSpec
     from evolution.experiments.standing import Standing
+
+MOST_ROWS: Final = 60
+PIPE_WIDTH: Final = 200
 
 
 @dataclass(frozen=True)
@@ -92,6 +95,36 @@ class ExperimentCommand:
         )
         check_size(spec)
         return spec
+
+
+@dataclass(frozen=True)
+class Status:
+    """Show how far the runs of an experiment have come; nothing is written, whoever else is at work."""
+
+    path: Annotated[Positional[Path], arg(metavar="FOLDER")]
+    """Experiment folder, with variants or without, or the folder of one run."""
+
+    every_run: Annotated[bool, arg(name="all")] = False
+    """A row for each run, however many there are; else more than 60 are summed up."""
+
+    def run(self) -> int:
+        """Read and print once."""
+        from rich.console import Console
+
+        from evolution.experiments.live_table import run_table
+        from evolution.experiments.standing import pace_of
+        from evolution.experiments.status import experiment_standings
+        from evolution.runs.folder import RunFolder
+
+        standings = experiment_standings(self.path)
+        at_work = sum(each.at_work for each in standings.values())
+        started = [RunFolder(path, each.config) for path, each in standings.items() if each.generations]
+        most_rows = None if self.every_run else MOST_ROWS
+        table = run_table(list(standings.values()), pace_of(started), max(at_work, 1), most_rows)
+        console = Console()
+        # A pipe has no width: nothing is to be cut there.
+        console.print(table, width=None if console.is_terminal else PIPE_WIDTH)
+        return 0
 
 
 def _list_runs(plan: Plan, spec: ExperimentSpec, at_once: int) -> None:

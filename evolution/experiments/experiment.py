@@ -81,12 +81,13 @@ class RunState:
         return self.finished and self.evaluated == self.to_evaluate and not self.damage
 
 
-def open_experiment(path: Path) -> Experiment:
+def open_experiment(path: Path | str) -> Experiment:
     """The experiment in a folder; a single run's folder is an experiment of one.
 
     Raises:
         ValueError: If there is no readable run in it, or its runs took place in different worlds.
     """
+    path = Path(path)
     folders = (
         [path] if (path / CONFIG).is_file() else sorted(each.parent for each in path.glob(f"*/*/{CONFIG}"))
     )

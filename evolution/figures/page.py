@@ -71,13 +71,13 @@ def ink_on(share: float) -> str:
     return "white" if share > 0.55 else INK
 
 
-def save_figure(figure: Figure, stem: Path) -> list[Path]:
+def save_figure(figure: Figure, stem: Path | str) -> list[Path]:
     """Write a figure as PNG and SVG beside each other; both paths.
 
     Raises:
         OSError: If they cannot be written; then neither is left half-written.
     """
-    paths = []
+    paths, stem = [], Path(stem)
     for suffix, data in (("png", png_bytes(figure)), ("svg", svg_bytes(figure))):
         paths.append(stem.with_name(f"{stem.name}.{suffix}"))
         write_atomically(paths[-1], data)

@@ -22,7 +22,7 @@ BEST_COLOUR: Final = "#1B4F72"
 MEAN_COLOUR: Final = "#8FB3CC"
 
 
-def heat_map(evaluation: Evaluation, origin: str) -> Figure:
+def heat_map(evaluation: Evaluation, origin: str = "") -> Figure:
     """A page with the successes of one agent on all nine instructions."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.0, 5.7))
@@ -66,7 +66,7 @@ def _draw_cell(axes: Axes, row: int, column: int, count: int, trials: int, never
         axes.add_patch(frame)
 
 
-def fitness_curve(history: History, origin: str) -> Figure:
+def fitness_curve(history: History, origin: str = "") -> Figure:
     """A page with the fitness of a run over its generations."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.6, 4.6))

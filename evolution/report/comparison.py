@@ -1,4 +1,4 @@
-"""Several experiments and the paper side by side, as a table for programs."""
+"""Key numbers of several experiments and of the paper side by side, for programs and for a terminal."""
 
 from __future__ import annotations
 
@@ -6,11 +6,14 @@ from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
+from rich.table import Table
 
 from arm2d import Condition
 from evolution.report.columns import PlainTable
-from evolution.results.key_numbers import KeyNumber, by_condition
+from evolution.results import published
+from evolution.results.key_numbers import AT_LIMIT, PLATEAU, SOLVED, WITH_FULL, KeyNumber, by_condition
 from evolution.results.records import Results
+from evolution.results.wording import TITLES, of, percent
 
 
 class SideBySide(NamedTuple):
@@ -21,7 +24,7 @@ class SideBySide(NamedTuple):
     found: Mapping[str, KeyNumber]
 
 
-def comparison_table(experiments: Mapping[str, Results]) -> PlainTable[SideBySide]:
+def key_number_table(experiments: Mapping[str, Results]) -> PlainTable[SideBySide]:
     """Conditions and key numbers: the paper's, then ours, of how many, and their range, by experiment."""
 
     def ours(name: str, text: Callable[[KeyNumber], str]) -> Callable[[SideBySide], str]:
@@ -46,6 +49,31 @@ def comparison_table(experiments: Mapping[str, Results]) -> PlainTable[SideBySid
             for place, number in enumerate(next(iter(by_name.values())))
         ],
     )
+
+
+def comparison_table(experiments: Mapping[str, Results]) -> Table:
+    """The same for a terminal."""
+    table = Table("condition", "number", "published", *experiments)
+    plain = {AT_LIMIT, SOLVED, WITH_FULL}
+
+    def text(name: str, value: float | None, n: int) -> str:
+        if value is None or value != value:
+            return "-"
+        if name == PLATEAU:
+            return f"{value:.3f}"
+        return of(int(value), n) if name in plain else percent(value)
+
+    for condition, by_name in by_condition(experiments).items():
+        for place, number in enumerate(next(iter(by_name.values()))):
+            found = {name: numbers[place] for name, numbers in by_name.items()}
+            ours = [
+                text(number.name, found[name].ours, found[name].of) if name in found else "-"
+                for name in experiments
+            ]
+            table.add_row(
+                TITLES[condition], number.name, text(number.name, number.published, published.RUNS), *ours
+            )
+    return table
 
 
 def _rounded(value: float | None) -> str:

@@ -22,8 +22,9 @@ from evolution.results.wording import generalisers_sentence
 from evolution.runs.storage import make_folder, write_arrays, write_atomically
 
 
-def write_results(results: Results, folder: Path) -> list[Path]:
+def write_results(results: Results, folder: Path | str) -> list[Path]:
     """Write everything into a folder; the paths, tables first."""
+    folder = Path(folder)
     make_folder(folder)
     tables = {
         "table-ii.csv": table_ii(results),

@@ -42,7 +42,7 @@ TEMPLATE: Final = "template.html"
 FIGURE_FOLDERS: Final = {"lineage": "Its line of ancestors", "behaviour": "How it does it"}
 
 
-def write_report(results: Results, path: Path) -> Path:
+def write_report(results: Results, path: Path | str) -> Path:
     """Write the page.
 
     Args:
@@ -56,6 +56,7 @@ def write_report(results: Results, path: Path) -> Path:
         ValueError: If a file of a shown run is damaged.
         OSError: If it cannot be written.
     """
+    path = Path(path)
     make_folder(path.parent)
     write_atomically(path, render(results, path.parent).encode())
     return path
@@ -163,7 +164,8 @@ def _figures_beside(agent: NotableAgent) -> Iterable[tuple[str, str]]:
 
 def _films(experiment: Path, home: Path) -> Iterable[tuple[str, str]]:
     """(name, relative link) of every film that lies beside the runs."""
-    for path in sorted([*experiment.glob("videos/*.mp4"), *experiment.glob("*/*/videos/*.mp4")]):
+    films = [*experiment.glob("videos/[!.]*.mp4"), *experiment.glob("*/*/videos/[!.]*.mp4")]
+    for path in sorted(films):
         parts = [part for part in path.relative_to(experiment).parts[:-1] if part != "videos"]
         yield ", ".join([*parts, path.stem.replace("-", " ")]), os.path.relpath(path, home)
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition
+from arm2d.records import brief
 from evolution.agents.postevaluation import N_INSTRUCTIONS, TRIALS
 from evolution.results.records import ConditionResults, Results
 from evolution.runs.folder import RunFolder
@@ -38,6 +39,8 @@ class NotableAgent:
     generation: int
     rank: int
     successes: NDArray[np.int16]
+
+    __repr__ = brief
 
 
 def best_agent(results: ConditionResults) -> NotableAgent | None:

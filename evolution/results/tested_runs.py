@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.agents.firsts import first_row
 from evolution.agents.postevaluation import POST_EVALUATION, PostEvaluation
 from evolution.agents.solving import all_solved
@@ -40,6 +41,8 @@ class TestedRun:
     longest_stay: int
     evaluation: PostEvaluation
     transitions: TransitionTest
+
+    __repr__ = brief
 
 
 def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[str]]:

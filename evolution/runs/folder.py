@@ -11,14 +11,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from evolution.runs.history import History, history_from_arrays
-from evolution.search.config import RunConfig
-from evolution.search.toml import read_toml_file
 from evolution.runs.storage import (
     DamagedFileError,
     make_folder,
@@ -27,6 +25,8 @@ from evolution.runs.storage import (
     write_arrays,
     write_atomically,
 )
+from evolution.search.config import RunConfig
+from evolution.search.toml import read_toml_file
 
 GENERATIONS_PER_PART: Final = 100
 CONFIG: Final = "config.toml"
@@ -53,12 +53,13 @@ class RunFolder:
     config: RunConfig
 
     @classmethod
-    def open(cls, path: Path) -> RunFolder:
+    def open(cls, path: Path | str) -> Self:
         """The folder of a run that was started before.
 
         Raises:
             ValueError: If there is none, or its config.toml cannot be understood.
         """
+        path = Path(path)
         config = path / CONFIG
         if not path.is_dir():
             raise ValueError(f"{path} is not a folder; give the folder of a run, with its {CONFIG}")
@@ -72,7 +73,7 @@ class RunFolder:
             ) from None
 
     @classmethod
-    def create(cls, path: Path, config: RunConfig) -> RunFolder:
+    def create(cls, path: Path, config: RunConfig) -> Self:
         """The folder of this run, with its config.toml.
 
         Raises:
@@ -153,7 +154,7 @@ class RunFolder:
         try:
             yield
         except DamagedFileError as error:
-            next_move = f"put it right with: wordarm repair {self.path}"
+            next_move = f"put it right with: wordarm verify {self.path} --repair"
             raise DamagedFileError(path, error.found, next_move) from None
 
     def write_arrays(self, path: Path, arrays: dict[str, NDArray]) -> None:
@@ -165,7 +166,8 @@ class RunFolder:
         return DamagedFileError(
             self.part_path(span),
             found,
-            f"recompute generations {span.start} to {span.stop - 1} with: wordarm repair {self.path}",
+            f"recompute generations {span.start} to {span.stop - 1} with: "
+            f"wordarm verify {self.path} --repair",
         )
 
 

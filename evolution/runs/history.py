@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
+from arm2d.records import brief
+from evolution.runs.storage import DamagedFileError
 from evolution.search.algorithm import mean_in_order, rank
 from evolution.search.config import RunConfig
 from evolution.search.population import Population
 from evolution.search.settings import LARGEST_TRIAL_FITNESS, N_BEST
-from evolution.runs.storage import DamagedFileError
-
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,8 @@ class History:
     mean: NDArray[np.float64]
     median: NDArray[np.float64]
     worst: NDArray[np.float64]
+
+    __repr__ = brief
 
     @classmethod
     def join(cls, histories: Iterable[History]) -> History:

@@ -14,11 +14,11 @@ from evolution.runs.folder import CHAMPIONS, META, RunFolder, refuse_other
 from evolution.runs.history import HistoryBuilder
 from evolution.runs.lock import locked
 from evolution.runs.replay import replay_part
+from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.algorithm import mean_in_order
 from evolution.search.config import RunConfig
 from evolution.search.population import first_population, next_population
 from evolution.search.scoring import score_population
-from evolution.runs.storage import DamagedFileError, make_folder
 
 
 @dataclass(frozen=True)

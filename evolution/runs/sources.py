@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, check_genotypes
-from evolution.runs.folder import CHAMPIONS, RunFolder
 from evolution.runs.arrays import read_genotype_file
+from evolution.runs.folder import CHAMPIONS, RunFolder
 from evolution.runs.recorded import recorded_generation, recorded_histories
 from evolution.runs.replay import population_at
 from evolution.search.algorithm import rank as ranking
@@ -42,6 +42,9 @@ class Agent:
     origin: str
     name: str
     folder: RunFolder | None = None
+
+    def __repr__(self) -> str:
+        return f"<Agent: {self.origin}>"
 
 
 def find_agent(

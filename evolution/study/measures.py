@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.agents.firsts import NEVER, first_row
 from evolution.agents.parts import best_genotypes, late_spans
 from evolution.agents.postevaluation import N_INSTRUCTIONS, successes_by_area
@@ -50,6 +51,8 @@ class RunMeasures:
     first_solved: int
     solved_late: float
     successes: NDArray[np.int16]
+
+    __repr__ = brief
 
     @property
     def at_limit(self) -> bool:

@@ -12,19 +12,22 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import astuple, dataclass, fields
-from importlib.resources import files
 from pathlib import Path
-from typing import Final, Literal
+from typing import Any, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
+from arm2d.records import brief
+from arm2d.sources import sources_digest
 from models.robots import get_robot
 
 Loop = Literal["open", "delayed", "geometric", "camera"]
 AREAS: Final = ("right", "left")
 MARK: Final = "# "
+# Whose code decides what becomes of a trial in either world.
+PACKAGES: Final = ("arm2d", "models", "mujoco_port")
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,8 @@ class Candidate:
     genotype: NDArray[np.float64]
     instructions: tuple[Instruction, ...]
     readings: Readings
+
+    __repr__ = brief
 
 
 @dataclass(frozen=True)
@@ -132,13 +137,9 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
 
 def fingerprint(listed: Sequence[Job], robot: str) -> str:
     """What determines the outcomes: sources, robot, genotypes and starts."""
-    digest = hashlib.sha256(robot.encode())
-    for package in ("arm2d", "models", "mujoco_port"):
-        for source in sorted(files(package).iterdir(), key=lambda each: each.name):
-            if source.name.endswith((".py", ".xml")):
-                digest.update(source.read_bytes())
+    digest = hashlib.sha256(f"{robot} {sources_digest(*PACKAGES)}".encode())
     for job in listed:
-        digest.update(f"{job.agent.name} {job.loop} {job.agent.readings}".encode())
+        digest.update(f"{job.agent.name} {job.loop} {job.agent.readings.to_mapping()}".encode())
         for array in (
             job.agent.genotype,
             job.trial.alpha,
@@ -177,34 +178,33 @@ def _outcome(row: Sequence[str]) -> Outcome:
 
 
 _lab = None
-_eyes = None
+_eyes: dict[str, Any] = {}  # by where the camera sits
 
 
 def _move_in(robot: str) -> None:
     """Build the robot of this process once."""
-    global _lab, _eyes
+    global _lab
     from mujoco_port.acting.lab import Lab
 
-    _lab, _eyes = Lab(get_robot(robot)), None
+    _lab = Lab(get_robot(robot))
+    _eyes.clear()
 
 
 def carry_out_job(job: Job) -> Outcome:
     """One trial in both worlds, on the robot of this process."""
-    global _eyes
     if _lab is None:
         raise RuntimeError("there is no robot in this process")
     agent, readings = job.agent, job.agent.readings
     scores = run_trials(agent.genotype[np.newaxis], job.trial, readings)
-    if job.loop == "camera" and _eyes is None:
+    if job.loop == "camera" and readings.camera_origin not in _eyes:
         from mujoco_port.acting.camera import CameraEyes
 
-        _eyes = CameraEyes(_lab.body)
+        _eyes[readings.camera_origin] = CameraEyes(_lab.body, readings)
     if job.loop in ("open", "delayed"):
         record, verdict = _lab.open_loop(agent.genotype, job.trial, readings, int(job.loop == "delayed"))
     else:
-        record, verdict = _lab.closed_loop(
-            agent.genotype, job.trial, readings, _eyes if job.loop == "camera" else None
-        )
+        eyes = _eyes[readings.camera_origin] if job.loop == "camera" else None
+        record, verdict = _lab.closed_loop(agent.genotype, job.trial, readings, eyes)
     return Outcome(
         agent.name,
         job.loop,

@@ -9,7 +9,7 @@ import pytest
 from arm2d import Condition
 from evolution.agents.subtasks import AgentClass
 from evolution.report.columns import PlainTable
-from evolution.report.comparison import comparison_table
+from evolution.report.comparison import key_number_table
 from evolution.report.rows import (
     generaliser_table,
     genotype_table,
@@ -197,7 +197,7 @@ def test_experiments_side_by_side_have_their_own_columns(experiment):
     other = results({condition: condition_results(condition, random_successes(condition, n_runs=2, seed=9))})
     rows = {
         (row["condition"], row["number"]): row
-        for row in rows_of(comparison_table({"a": experiment, "b": other}))
+        for row in rows_of(key_number_table({"a": experiment, "b": other}))
     }
     row = rows[condition, "share of agents in category 10, sub-task II"]
     for name, found in (("a", experiment), ("b", other)):

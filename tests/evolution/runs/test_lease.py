@@ -44,7 +44,7 @@ def test_a_lease_is_there_while_it_is_held_and_gone_after_it(tmp_path):
 def test_a_run_that_is_alive_on_another_machine_is_refused_and_left_alone(run_copy, capsys):
     leave(run_copy)
     before = (run_copy / LEASE).read_bytes()
-    assert main(["repair", str(run_copy)]) == 2
+    assert main(["verify", str(run_copy), "--repair"]) == 2
     assert f"process 7 on node12 works on {run_copy}" in capsys.readouterr().err
     assert (run_copy / LEASE).read_bytes() == before
     assert is_held(run_copy)
@@ -71,7 +71,8 @@ def holder_process(folder, renewal=15.0):
     """A real process that holds a folder, and has said so."""
     code = (
         "import sys, time; from pathlib import Path; from evolution.runs import lease; "
-        f"from evolution.runs.lock import locked\nlease.RENEWAL = {renewal}\nwith locked(Path(sys.argv[1])):\n"
+        "from evolution.runs.lock import locked\n"
+        f"lease.RENEWAL = {renewal}\nwith locked(Path(sys.argv[1])):\n"
         "    print('held', flush=True); time.sleep(60)"
     )
     process = subprocess.Popen(

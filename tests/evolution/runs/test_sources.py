@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.evolution.small_runs import SMALL
 
 from arm2d import Condition, Readings
 from evolution.runs import arrays, sources
@@ -13,6 +12,7 @@ from evolution.runs.recorded import recorded_generation, recorded_history
 from evolution.runs.replay import population_at
 from evolution.runs.run import Watcher, evolve
 from evolution.runs.sources import find_agent
+from tests.evolution.small_runs import SMALL
 
 GENOTYPES = np.random.default_rng(0).random((3, 84))
 
