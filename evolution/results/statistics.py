@@ -3,6 +3,9 @@
 The paper compares numbers of agents with Wilcoxon's test as if they were independent. The agents of
 one run are not: elites survive for hundreds of generations, and relatives behave alike. Here the run
 is the unit: each contributes one number, the fraction of its agents in question.
+
+Ranks and Student's t are SciPy's, imported late: that takes a third of a second. Its permutation test gives
+the same p only as a one-sided test of how far off a sum is, and takes twenty times as long.
 """
 
 from __future__ import annotations
@@ -98,10 +101,11 @@ def sign_flip_test(differences: NDArray[np.float64]) -> float:
     """
     n = len(differences)
     if n > MOST_FLIPPED:
-        from scipy.stats import t
+        from scipy.stats import ttest_1samp
 
-        spread = differences.std(ddof=1) / n**0.5
-        return float(2 * t.sf(abs(differences.mean()) / spread, n - 1)) if spread else 0.0
+        if np.ptp(differences) == 0:
+            return 0.0 if differences.any() else 1.0
+        return float(ttest_1samp(differences, 0.0)[1])  # type: ignore[arg-type] - typed as object
     signs = 1 - 2 * ((np.arange(2**n)[:, np.newaxis] >> np.arange(n)) & 1)  # [2^n, n]
     off = np.abs(signs @ differences)
     return float((off >= abs(differences.sum()) - 1e-12).mean())
@@ -109,9 +113,9 @@ def sign_flip_test(differences: NDArray[np.float64]) -> float:
 
 def midranks(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Ranks from 1, equals sharing the mean of theirs."""
-    below = np.less.outer(values, values).sum(axis=0)
-    equal = np.equal.outer(values, values).sum(axis=0)
-    return below + (equal + 1) / 2
+    from scipy.stats import rankdata
+
+    return rankdata(values)
 
 
 def bootstrap_interval(
@@ -128,7 +132,7 @@ def bootstrap_interval(
         rng: Draws the samples.
         level: Of confidence.
     """
-    samples = [each[rng.integers(0, len(each), (BOOTSTRAP_SAMPLES, len(each)))] for each in groups]
+    samples = [group[rng.integers(0, len(group), (BOOTSTRAP_SAMPLES, len(group)))] for group in groups]
     low, high = np.quantile(statistic(samples), [(1 - level) / 2, (1 + level) / 2])
     return float(low), float(high)
 
@@ -149,7 +153,7 @@ def proportions_interval(first: tuple[int, int], second: tuple[int, int]) -> tup
 def wilcoxon_as_published(first: NDArray[np.float64], second: NDArray[np.float64]) -> tuple[float, float]:
     """(statistic, two-sided p) of Wilcoxon's rank sum test on numbers that stand for many agents each.
 
-    Kept only to be shown beside the sound tests. SciPy is imported late: it takes a third of a second.
+    Kept only to be shown beside the sound tests.
     """
     from scipy.stats import ranksums
 

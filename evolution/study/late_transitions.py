@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.agents.postevaluation import best_genotypes, late_spans
+from evolution.agents.parts import best_genotypes, late_spans
 from evolution.agents.subtasks import AgentClass, classify
 from evolution.agents.transitions import action_transitions, object_transitions, passes, transition_successes
 from evolution.runs.folder import RunFolder

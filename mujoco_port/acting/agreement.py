@@ -34,7 +34,7 @@ SAFE_PATH: Final = "PYTHONSAFEPATH"
 
 
 @dataclass(frozen=True)
-class Agent:
+class Candidate:
     """Whom to try.
 
     Attributes:
@@ -83,14 +83,14 @@ class Outcome:
 class Job:
     """One trial to carry out."""
 
-    agent: Agent
+    agent: Candidate
     loop: Loop
     trial: Trials
     area: str
     start: int
 
 
-def jobs(agents: Sequence[Agent], loops: Sequence[Loop], n_starts: int, seed: int) -> list[Job]:
+def jobs(agents: Sequence[Candidate], loops: Sequence[Loop], n_starts: int, seed: int) -> list[Job]:
     """All instructions from `n_starts` fresh starts in each area, the same for every agent and loop."""
     listed = []
     for agent in agents:

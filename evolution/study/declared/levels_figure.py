@@ -12,8 +12,8 @@ from matplotlib.lines import Line2D
 
 from arm2d import Condition
 from arm2d.drawing import INK
+from evolution.figures.page import FAINT, STYLE
 from evolution.figures.paper import TITLES
-from evolution.figures.style import FAINT, STYLE
 from evolution.study.declared.factors import FACTORS
 from evolution.study.declared.regression import SIGNIFICANT, Model
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from arm2d import Condition
 from evolution.agents.subtasks import SUBTASKS
 from evolution.results import published
+from evolution.search.settings import LARGEST_FITNESS
 from evolution.study.declared.rows import MeasuredRun
 
 
@@ -44,9 +45,7 @@ def _top_share(column: int) -> Outcome:
     )
 
 
-PLATEAU: Final = Outcome(
-    "plateau", lambda run: run.plateau, lambda _: published.LARGEST_FITNESS, is_share=False
-)
+PLATEAU: Final = Outcome("plateau", lambda run: run.plateau, lambda _: LARGEST_FITNESS, is_share=False)
 # All published runs end at the largest fitness.
 SOLVED: Final = Outcome("solved", lambda run: float(run.solved), lambda _: 1.0)
 TOP_SHARES: Final = tuple(_top_share(column) for column in range(len(SUBTASKS)))

@@ -8,12 +8,12 @@ from typing import Final
 
 from arm2d import Condition
 from evolution.experiments.variants import variant_name
-from evolution.figures.run import save_figure
-from evolution.report.rows import to_csv
+from evolution.figures.page import save_figure
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.study.declared.factors import FACTORS, levels_of
 from evolution.study.declared.held_back import Check, check
 from evolution.study.declared.levels_figure import levels_figure
+from evolution.study.declared.lines import to_csv
 from evolution.study.declared.nearest import Nearest, nearest_worlds, spreads
 from evolution.study.declared.outcomes import FIGURES, OUTCOMES
 from evolution.study.declared.regression import Estimate, Model, fit

@@ -16,16 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition, Readings
-from evolution.agents.postevaluation import N_INSTRUCTIONS, TRIALS, read_post_evaluation
+from evolution.agents.postevaluation import N_INSTRUCTIONS, POST_EVALUATION, TRIALS
 from evolution.agents.subtasks import MOVE_BLUE, SUBTASKS, TOUCH_GREEN, categories, classify, masters
-from evolution.agents.transition_test import read_transition_test
-from evolution.agents.transitions import passes
-from evolution.report.rows import to_csv
-from evolution.results.records import FITNESS_LIMIT, PLATEAU_TOLERANCE
+from evolution.agents.transitions import TRANSITION_TEST, passes
+from evolution.results.records import PLATEAU_TOLERANCE
 from evolution.runs.folder import RunFolder
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.search.config import RunConfig
-from evolution.search.settings import Settings
+from evolution.search.settings import LARGEST_FITNESS, Settings
+from evolution.study.declared.lines import to_csv
 from evolution.study.late_transitions import CLASSES, TESTS, passed_transitions
 from evolution.study.measures import measure, plateau_of, solved_of
 from evolution.study.table import ACTIONS, AREAS
@@ -80,7 +79,7 @@ class MeasuredRun:
     @property
     def at_limit(self) -> bool:
         """Whether it ends at the paper's 2.57."""
-        return self.plateau >= FITNESS_LIMIT - PLATEAU_TOLERANCE
+        return self.plateau >= LARGEST_FITNESS - PLATEAU_TOLERANCE
 
     def share(self, count: str) -> float:
         """A count as a share of the late agents."""
@@ -117,7 +116,7 @@ def post_evaluated_run(folder: RunFolder) -> MeasuredRun:
         ValueError: If it was not post-evaluated.
         DamagedFileError: If a file of it is damaged.
     """
-    agents, tests = read_post_evaluation(folder).agents, read_transition_test(folder)
+    agents, tests = POST_EVALUATION.read(folder).agents, TRANSITION_TEST.read(folder)
     first, share = solved_of(folder)
     passed = np.array(
         [

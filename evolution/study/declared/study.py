@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Condition, Readings
-from evolution.report.rows import to_csv
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.study.declared.claim import answer_rows, answers, averaged_over_worlds, verdict
 from evolution.study.declared.confirmation import (
@@ -24,6 +23,7 @@ from evolution.study.declared.confirmation import (
     less_one,
     runs_of_worlds,
 )
+from evolution.study.declared.lines import to_csv
 from evolution.study.declared.nearest import spreads
 from evolution.study.declared.parts import GENERATIONS, DeclaredPart, factorial
 from evolution.study.declared.plan import RowFile

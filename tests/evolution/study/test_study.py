@@ -12,18 +12,17 @@ from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.cli import main
 from evolution.experiments.variants import variant_name
-from evolution.report.files import to_csv
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.run import evolve
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.study.effects import effect_rows, effects, holm
+from evolution.study.effects import effect_table, effects, holm
 from evolution.study.figure import effects_figure, failures_figure
-from evolution.study.measures import FILE, measure
+from evolution.study.measures import FILE, RunMeasures, measure
 from evolution.study.results import write_study
-from evolution.study.table import group, nearest, run_rows, variant_rows
+from evolution.study.table import VariantMeasures, group, nearest, run_table, variant_table
 from evolution.study.variants import around, confirmation, finalists, screening
 
 RESULTS = Path(__file__).parents[3] / "docs" / "results" / "readings"
@@ -72,6 +71,68 @@ def test_nearest_variant_is_the_one_whose_numbers_are_the_published_ones(measure
     variants = group(measured[1])
     plateau = max(variants, key=lambda each: each.plateaus.mean())  # neither reaches the published share
     assert [each.name for each in nearest(variants, 1)] == [plateau.name]
+
+
+def variant(name, plateau, top_share, *, seeds=(1, 2), generations=3000, **changed):
+    """Runs whose plateaus and shares of agents in category 10 of sub-task I are these."""
+    top = np.arange(100)[:, np.newaxis, np.newaxis, np.newaxis] < 100 * top_share
+    successes = np.broadcast_to(np.where(top, 40, 0), (100, 5, 9, 2)).astype(np.int16)
+    runs = []
+    for seed in seeds:
+        config = RunConfig(
+            Condition.WITH_INDICATE, seed, Settings(generations=generations), Readings(**changed)
+        )
+        runs.append(RunMeasures(config, plateau, 7, 0.5, successes))
+    return VariantMeasures(name, Condition.WITH_INDICATE, generations, tuple(runs))
+
+
+def test_nearest_looks_at_the_share_of_agents_where_plateaus_are_alike():
+    """The published share is 60 %: too many is as far off as too few."""
+    shares = {"none": 0.0, "all": 1.0, "some": 0.5, "published": 0.6}
+    variants = [variant(name, 2.4, share) for name, share in shares.items()]
+    assert [near.name for near in nearest(variants, 4)] == ["published", "some", "all", "none"]
+
+
+def test_nearest_looks_at_plateaus_where_shares_are_alike():
+    plateaus = {"low": 1.9, "high": 2.55, "middle": 2.2}
+    variants = [variant(name, plateau, 0.3) for name, plateau in plateaus.items()]
+    assert [near.name for near in nearest(variants, 3)] == ["high", "middle", "low"]
+
+
+def test_nearest_counts_both_ranks_the_same():
+    first_and_last, both_second = variant("a", 2.57, 0.0), variant("b", 2.5, 0.5)
+    last_and_third = variant("c", 2.0, 0.4)
+    last = variant("d", 1.9, 0.61)
+    # Ranks of plateau and share: a 1 + 4, b 2 + 2, c 3 + 3, d 4 + 1; equals stand as they came.
+    variants = [first_and_last, both_second, last_and_third, last]
+    assert [near.name for near in nearest(variants, 4)] == ["b", "a", "d", "c"]
+
+
+def test_only_runs_of_one_length_and_condition_make_a_pair():
+    default, longer = variant("default", 2.2, 0.1), variant("longer", 2.5, 0.1, generations=6000)
+    wide = variant("wide", 2.3, 0.1, object_radius=8.0)
+    ignore = replace(
+        wide,
+        condition=Condition.WITH_IGNORE,
+        runs=tuple(
+            replace(run, config=replace(run.config, condition=Condition.WITH_IGNORE)) for run in wide.runs
+        ),
+    )
+    assert effects([longer, wide]) == []
+    assert effects([default, ignore]) == []
+    assert effects([default, longer]) == []
+    (effect,) = effects([default, longer, wide, ignore])
+    assert effect.pairs == ((default, wide),)
+    assert effect.differences == pytest.approx([0.1, 0.1])
+
+
+def test_only_seeds_that_all_worlds_have_are_counted():
+    default = variant("default", 2.2, 0.1, seeds=(1, 2, 4))
+    wide = variant("wide", 2.3, 0.1, seeds=(2, 3, 4), object_radius=8.0)
+    (effect,) = effects([default, wide])
+    assert effect.seeds == [2, 4]
+    for runs in (effect.without, effect.changed):
+        assert [run.config.seed for run in runs] == [2, 4]
 
 
 def test_sampled_agents_are_those_of_the_post_evaluation(measured):
@@ -130,10 +191,10 @@ def test_runs_are_put_together_by_variant_and_ordered_by_seed(measured):
 
 def test_rows_hold_what_was_measured(measured):
     variants = group(measured[1])
-    runs = list(csv.DictReader(to_csv(run_rows(variants)).splitlines()))
+    runs = list(csv.DictReader(run_table(variants).to_csv().splitlines()))
     assert [row["seed"] for row in runs] == ["1", "2", "1", "2"]
     assert float(runs[0]["plateau"]) == pytest.approx(variants[0].runs[0].plateau, abs=1e-4)
-    one, other = csv.DictReader(to_csv(variant_rows(variants)).splitlines())
+    one, other = csv.DictReader(variant_table(variants).to_csv().splitlines())
     mean = np.mean([float(row["plateau"]) for row in runs[2:]])
     assert float(other["plateau"]) == pytest.approx(mean, abs=1e-4)
     assert float(one["plateau low"]) <= float(one["plateau"]) <= float(one["plateau high"])
@@ -154,8 +215,8 @@ def test_effect_of_a_reading_is_its_difference_seed_by_seed(measured):
     (effect,) = effects(variants)
     assert (effect.reading, effect.value, effect.seeds) == ("object_radius", 8.0, [1, 2])
     np.testing.assert_array_equal(effect.differences, variants[1].plateaus - variants[0].plateaus)
-    assert effect.runs == (list(variants[0].runs), list(variants[1].runs))
-    (row,) = csv.DictReader(to_csv(effect_rows(variants)).splitlines())
+    assert (effect.without, effect.changed) == (list(variants[0].runs), list(variants[1].runs))
+    (row,) = csv.DictReader(effect_table(variants).to_csv().splitlines())
     assert float(row["plateau, difference"]) == pytest.approx(effect.differences.mean(), abs=1e-4)
     # Two seeds have four choices of signs, two of which are at least as far off as any.
     assert float(row["p"]) == float(row["p after Holm"]) == (1.0 if np.prod(effect.differences) < 0 else 0.5)

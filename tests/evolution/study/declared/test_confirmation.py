@@ -9,7 +9,6 @@ import pytest
 
 from arm2d import Condition, Readings
 from evolution.cli import main
-from evolution.report.rows import to_csv
 from evolution.study.declared.confirmation import (
     DEFAULT,
     PRINTED,
@@ -23,6 +22,7 @@ from evolution.study.declared.confirmation import (
     less_one,
     runs_of_worlds,
 )
+from evolution.study.declared.lines import to_csv
 from evolution.study.declared.nearest import spreads
 from evolution.study.declared.parts import factorial
 from evolution.study.declared.results import chosen_worlds, regressions

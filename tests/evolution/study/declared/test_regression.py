@@ -7,10 +7,10 @@ import pytest
 
 from arm2d import Condition, Readings
 from evolution.cli import main
-from evolution.report.rows import to_csv
 from evolution.study.declared.factors import FACTORS
 from evolution.study.declared.held_back import check
 from evolution.study.declared.levels_figure import levels_figure
+from evolution.study.declared.lines import to_csv
 from evolution.study.declared.nearest import active_factors, distance, nearest_worlds, spreads
 from evolution.study.declared.outcomes import FIGURES, OUTCOMES, PLATEAU, SOLVED, TOP_SHARES
 from evolution.study.declared.regression import N_MAIN, design, fit, level_numbers

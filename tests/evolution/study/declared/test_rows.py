@@ -5,11 +5,10 @@ import pytest
 
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.subtasks import AgentClass, categories, classify
-from evolution.agents.transition_test import run_transition_test
-from evolution.agents.transitions import passes
+from evolution.agents.transitions import passes, run_transition_test
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import evolve
-from evolution.runs.sources import find_source
+from evolution.runs.sources import find_agent
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
@@ -23,7 +22,7 @@ SAMPLED = 30  # the only late generation that is a multiple of ten
 @pytest.fixture(scope="module")
 def run(tmp_path_factory, evolved):
     """A short run into whose last generations shipped agents are put, among others."""
-    source = find_source("with-ignore")
+    source = find_agent("with-ignore")
     folder = tmp_path_factory.mktemp("rows") / "run"
     evolve(folder, RunConfig(source.condition, 3, SETTINGS, source.readings))
     run = RunFolder.open(folder)
