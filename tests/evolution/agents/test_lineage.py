@@ -171,6 +171,15 @@ def test_innovations_stand_in_the_order_of_their_coming(scores):
     assert order == sorted(came) + [-1] * (15 - len(came))
 
 
+def test_an_innovation_tells_what_the_agent_at_the_end_of_the_line_can(scores):
+    names = [str(word) for word in scores.condition.instructions]
+    found = {innovation.skill: innovation for innovation in innovations(scores)}
+    assert not np.array_equal(scores.success.shares[0], scores.success.shares[-1])
+    for column, name in enumerate(names):
+        assert found[name].agent == scores.success.shares[-1, column]
+        assert found[name].first == scores.success.first[column]
+
+
 def test_figure_shows_every_skill_and_marks_the_never_met(scores):
     figure = lineage_figure(scores, "agent")
     labels = [axes.get_ylabel() for axes in figure.axes]

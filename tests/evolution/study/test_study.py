@@ -200,6 +200,26 @@ def test_rows_hold_what_was_measured(measured):
     assert float(one["plateau low"]) <= float(one["plateau"]) <= float(one["plateau high"])
 
 
+def test_a_variant_and_its_runs_are_told_with_their_own_numbers():
+    """Successes that differ in every instruction and area; one run of three never solved all its trials."""
+    successes = np.tile(np.arange(5, 23).reshape(9, 2), (100, 5, 1, 1)).astype(np.int16)
+    base = variant("default", 2.4, 0.0, seeds=(1, 2, 3))
+    runs = [
+        replace(run, successes=successes, first_solved=first)
+        for run, first in zip(base.runs, (100, -1, 250), strict=True)
+    ]
+    told = replace(base, runs=tuple(runs))
+    (row,) = csv.DictReader(variant_table([told]).to_csv().splitlines())
+    assert (row["runs that solve all trials"], row["median generation of these"]) == ("2", "175")
+    assert (row["weakest instruction"], row["from"]) == ("MOVE Green", "right")
+    assert float(row["its success"]) == pytest.approx(7 / 40, abs=5e-4)
+    by_run = list(csv.DictReader(run_table([told]).to_csv().splitlines()))
+    assert [run["first generation that solved all trials"] for run in by_run] == ["100", "never", "250"]
+    for place, name in enumerate(list(by_run[0])[-18:]):
+        assert name.endswith(("right", "left")[place % 2])
+        assert float(by_run[0][name]) == pytest.approx((5 + place) / 40, abs=5e-4)
+
+
 def test_weakest_instruction_is_the_least_carried_out_of_the_experienced(measured):
     (variant, _) = group(measured[1])
     instruction, area, success = variant.weakest
