@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from arm2d import Condition
 from evolution.agents.subtasks import SUBTASKS, AgentClass
+from evolution.report.columns import PlainTable
 from evolution.results.statistics import compare, mean_interval, proportions_interval, sign_flip_test
 from evolution.search.randomness import Purpose, generator
 from evolution.study.declared.beta_binomial import Counts, compare_counts
-from evolution.study.declared.regression import Estimate
+from evolution.study.declared.regression import Estimate, estimate_columns
 from evolution.study.declared.rows import MeasuredRun
 from evolution.study.effects import holm
 from evolution.study.late_transitions import CLASSES, TESTS
@@ -155,21 +156,27 @@ def verdict(under_default: Answer, over_worlds: Estimate) -> str:
     return f"undecided: {told}"
 
 
-def answer_rows(sources: Iterable[tuple[str, Sequence[Answer]]]) -> Iterable[Sequence[object]]:
+def answer_table(sources: Iterable[tuple[str, Sequence[Answer]]]) -> PlainTable[tuple[str, Answer]]:
     """One row per source of runs and test."""
-    yield (
-        "runs", "question", "With-Indicate runs", "With-Ignore runs", "With-Indicate", "With-Ignore",
-        "difference", "low", "high", "p", "p by permutation of runs", "after Holm",
-    )  # fmt: skip
-    for source, found in sources:
-        for each in found:
-            d = each.difference
-            numbers = (*each.means, d.value, d.low, d.high)
-            yield (
-                source, each.question, *each.runs, *(f"{v:.5f}" for v in numbers),
-                f"{each.p:.2g}", "" if np.isnan(each.permutation_p) else f"{each.permutation_p:.2g}",
-                f"{each.corrected:.2g}",
-            )  # fmt: skip
+    return PlainTable(
+        {
+            "runs": lambda row: row[0],
+            "question": lambda row: row[1].question,
+            "With-Indicate runs": lambda row: row[1].runs[0],
+            "With-Ignore runs": lambda row: row[1].runs[1],
+            "With-Indicate": lambda row: f"{row[1].means[0]:.5f}",
+            "With-Ignore": lambda row: f"{row[1].means[1]:.5f}",
+            **estimate_columns("difference", "low", "high", of=lambda row: row[1].difference, form=".5f"),
+            "p": lambda row: f"{row[1].p:.2g}",
+            "p by permutation of runs": lambda row: _if_known(row[1].permutation_p),
+            "after Holm": lambda row: f"{row[1].corrected:.2g}",
+        },
+        [(source, answer) for source, found in sources for answer in found],
+    )
+
+
+def _if_known(p: float) -> str:
+    return "" if np.isnan(p) else f"{p:.2g}"
 
 
 def _by_counts(question: Question, groups: Sequence[Sequence[MeasuredRun]]) -> Answer:

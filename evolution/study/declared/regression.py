@@ -7,7 +7,7 @@ parameters.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
@@ -38,6 +38,23 @@ class Estimate:
     value: float
     low: float
     high: float
+
+
+def estimate_columns(
+    *names: str, of: Callable[[Any], Estimate], form: str = ".4f"
+) -> dict[str, Callable[[Any], str]]:
+    """Three columns of a table: an estimate's value, low and high end.
+
+    Args:
+        names: Of the columns.
+        of: The estimate of what a row is about.
+        form: How the numbers are written.
+    """
+    ends = ("value", "low", "high")
+    return {
+        name: lambda row, end=end: format(getattr(of(row), end), form)
+        for name, end in zip(names, ends, strict=True)
+    }
 
 
 @dataclass(frozen=True)

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from arm2d import Condition
 from evolution.experiments.variants import variant_name
 from evolution.figures.page import save_figure
+from evolution.report.columns import PlainTable
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.study.declared.factors import FACTORS, levels_of
 from evolution.study.declared.held_back import Check, check
 from evolution.study.declared.levels_figure import levels_figure
-from evolution.study.declared.lines import to_csv
 from evolution.study.declared.nearest import Nearest, nearest_worlds, spreads
 from evolution.study.declared.outcomes import FIGURES, OUTCOMES
-from evolution.study.declared.regression import Estimate, Model, fit
+from evolution.study.declared.regression import Model, estimate_columns, fit
 from evolution.study.declared.rows import MeasuredRun, write_rows
 
 THIRDS: Final = ("lower", "middle", "upper")
@@ -34,15 +35,15 @@ def write_factorial(runs: Sequence[MeasuredRun], folder: Path) -> tuple[list[Pat
     rows = folder / "factorial.csv"
     write_rows(runs, rows)
     models, checks, notes = _models(runs)
-    tables = {"effects": effect_rows(models), "interactions": interaction_rows(models)} if models else {}
+    tables = {"effects": effect_table(models), "interactions": interaction_table(models)} if models else {}
     if checks:
-        tables["check"] = check_rows(checks)
+        tables["check"] = check_table(checks)
     if set(models) == set(Condition):
-        tables["worlds"] = world_rows(chosen_worlds(models, runs))
+        tables["worlds"] = world_table(chosen_worlds(models, runs))
     paths = [rows]
     for name, table in tables.items():
         paths.append(folder / f"factorial-{name}.csv")
-        write_atomically(paths[-1], to_csv(table).encode())
+        write_atomically(paths[-1], table.to_csv().encode())
     if models:
         title = f"What each reading does when all are mixed ({_counted(models)})"
         paths += save_figure(levels_figure(models, title), folder / "factorial-levels")
@@ -64,55 +65,105 @@ def regressions(runs: Sequence[MeasuredRun]) -> dict[Condition, list[Model]]:
     return {c: [fit(_of(runs, c), outcome) for outcome in OUTCOMES] for c in Condition}
 
 
-def effect_rows(models: Models) -> Iterable[Sequence[object]]:
+def effect_table(models: Models) -> PlainTable[Any]:
     """One row per condition, outcome and level."""
-    yield (
-        "condition", "outcome", "factor", "level", "mean", "mean low", "mean high", "effect", "low", "high",
-        "p of the factor", "after Holm", "runs",
-    )  # fmt: skip
-    for condition, model in _each(models):
-        for place, factor in enumerate(FACTORS):
-            for number, level in enumerate(factor.levels):
-                yield (
-                    str(condition), model.outcome.name, factor.name, level,
-                    *_numbers(model.level_mean(place, number)), *_numbers(model.effect(place, number)),
-                    f"{model.p[place]:.3g}", f"{model.corrected[place]:.3g}",
-                    int((model.levels[:, place] == number).sum()),
-                )  # fmt: skip
+    return PlainTable(
+        {
+            "condition": lambda row: str(row.condition),
+            "outcome": lambda row: row.model.outcome.name,
+            "factor": lambda row: FACTORS[row.place].name,
+            "level": lambda row: FACTORS[row.place].levels[row.number],
+            **estimate_columns(
+                "mean", "mean low", "mean high", of=lambda row: row.model.level_mean(row.place, row.number)
+            ),
+            **estimate_columns(
+                "effect", "low", "high", of=lambda row: row.model.effect(row.place, row.number)
+            ),
+            "p of the factor": lambda row: f"{row.model.p[row.place]:.3g}",
+            "after Holm": lambda row: f"{row.model.corrected[row.place]:.3g}",
+            "runs": lambda row: int((row.model.levels[:, row.place] == row.number).sum()),
+        },
+        [
+            _Level(condition, model, place, number)
+            for condition, model in _each(models)
+            for place, factor in enumerate(FACTORS)
+            for number in range(len(factor.levels))
+        ],
+    )
 
 
-def interaction_rows(models: Models) -> Iterable[Sequence[object]]:
+def interaction_table(models: Models) -> PlainTable[Any]:
     """One row per pair of factors that was tried, and whether it entered the regression."""
-    yield "condition", "outcome", "factor", "other factor", "p after Holm", "entered"
-    for condition, model in _each(models):
-        for pair, p in model.tried.items():
-            names = (FACTORS[place].name for place in pair)
-            yield (
-                str(condition), model.outcome.name, *names, f"{p:.3g}",
-                "yes" if pair in model.interactions else "no",
-            )  # fmt: skip
+    return PlainTable(
+        {
+            "condition": lambda row: str(row.condition),
+            "outcome": lambda row: row.model.outcome.name,
+            "factor": lambda row: FACTORS[row.pair[0]].name,
+            "other factor": lambda row: FACTORS[row.pair[1]].name,
+            "p after Holm": lambda row: f"{row.model.tried[row.pair]:.3g}",
+            "entered": lambda row: "yes" if row.pair in row.model.interactions else "no",
+        },
+        [_Pair(condition, model, pair) for condition, model in _each(models) for pair in model.tried],
+    )
 
 
-def check_rows(checks: Mapping[Condition, Sequence[Check]]) -> Iterable[Sequence[object]]:
+def check_table(checks: Mapping[Condition, Sequence[Check]]) -> PlainTable[Any]:
     """One row per condition and outcome: how well held-back runs were predicted."""
-    ends = [f"{third} third, {what}" for third in THIRDS for what in ("predicted", "found")]
-    yield "condition", "outcome", "runs fitted", "runs held back", "skill", "low", "high", *ends
-    for condition, own in checks.items():
-        for each in own:
-            yield (
-                str(condition), each.model.outcome.name, len(each.model.levels), len(each.found),
-                *_numbers(each.skill), *(f"{value:.4f}" for third in each.thirds for value in third),
-            )  # fmt: skip
+    return PlainTable(
+        {
+            "condition": lambda row: str(row[0]),
+            "outcome": lambda row: row[1].model.outcome.name,
+            "runs fitted": lambda row: len(row[1].model.levels),
+            "runs held back": lambda row: len(row[1].found),
+            **estimate_columns("skill", "low", "high", of=lambda row: row[1].skill),
+            **{
+                f"{third} third, {what}": lambda row, i=i, j=j: f"{row[1].thirds[i][j]:.4f}"
+                for i, third in enumerate(THIRDS)
+                for j, what in enumerate(("predicted", "found"))
+            },
+        },
+        [(condition, found) for condition, own in checks.items() for found in own],
+    )
 
 
-def world_rows(worlds: Sequence[Nearest]) -> Iterable[Sequence[object]]:
+def world_table(worlds: Sequence[Nearest]) -> PlainTable[Any]:
     """One row per chosen world: its levels, its distance, what is predicted of it."""
-    figures = [f"{figure.name}, {condition}" for condition in Condition for figure in FIGURES]
-    yield "rank", "readings", "distance", *(factor.name for factor in FACTORS), *figures
-    for rank, world in enumerate(worlds, 1):
-        predicted = [f"{value:.4f}" for condition in Condition for value in world.predicted[condition]]
-        name = variant_name(world.readings)
-        yield rank, name, f"{world.distance:.4f}", *levels_of(world.readings), *predicted
+    return PlainTable(
+        {
+            "rank": lambda row: row[0],
+            "readings": lambda row: variant_name(row[1].readings),
+            "distance": lambda row: f"{row[1].distance:.4f}",
+            **{
+                factor.name: lambda row, place=place: levels_of(row[1].readings)[place]
+                for place, factor in enumerate(FACTORS)
+            },
+            **{
+                f"{figure.name}, {condition}": lambda row, c=condition, i=i: f"{row[1].predicted[c][i]:.4f}"
+                for condition in Condition
+                for i, figure in enumerate(FIGURES)
+            },
+        },
+        list(enumerate(worlds, 1)),
+    )
+
+
+@dataclass(frozen=True)
+class _Level:
+    """A row of the table of effects: a level of a factor in one regression."""
+
+    condition: Condition
+    model: Model
+    place: int
+    number: int
+
+
+@dataclass(frozen=True)
+class _Pair:
+    """A row of the table of interactions: two factors in one regression."""
+
+    condition: Condition
+    model: Model
+    pair: tuple[int, int]
 
 
 def _models(
@@ -137,10 +188,6 @@ def _of(runs: Sequence[MeasuredRun], condition: Condition) -> list[MeasuredRun]:
 
 def _each(models: Models) -> Iterable[tuple[Condition, Model]]:
     return ((condition, model) for condition, own in models.items() for model in own)
-
-
-def _numbers(estimate: Estimate) -> tuple[str, ...]:
-    return tuple(f"{value:.4f}" for value in (estimate.value, estimate.low, estimate.high))
 
 
 def _counted(models: Models) -> str:

@@ -7,7 +7,7 @@ again, on whatever machine. Axes: 4 sub-tasks, 3 classes, 2 transition tests, 9 
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any, Final
@@ -19,12 +19,12 @@ from arm2d import NON_EXPERIENCED, Condition, Readings
 from evolution.agents.postevaluation import N_INSTRUCTIONS, POST_EVALUATION, TRIALS
 from evolution.agents.subtasks import MOVE_BLUE, SUBTASKS, TOUCH_GREEN, categories, classify, masters
 from evolution.agents.transitions import TRANSITION_TEST, passes
+from evolution.report.columns import PlainTable
 from evolution.results.records import PLATEAU_TOLERANCE
 from evolution.runs.folder import RunFolder
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.search.config import RunConfig
 from evolution.search.settings import LARGEST_FITNESS, Settings
-from evolution.study.declared.lines import to_csv
 from evolution.study.late_transitions import CLASSES, TESTS, passed_transitions
 from evolution.study.measures import measure, plateau_of, solved_of
 from evolution.study.table import ACTIONS, AREAS
@@ -44,10 +44,6 @@ COUNTS: Final = (
     *(str(kind) for kind in CLASSES),
     *(f"{kind}, pass {test} transitions" for kind in CLASSES for test in TESTS),
 )
-COLUMNS: Final = (
-    "condition", "seed", "generations", *READINGS, "plateau", "first generation that solved all trials",
-    "share of late generations that did", *COUNTS, *INSTRUCTION_COLUMNS,
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -89,6 +85,26 @@ class MeasuredRun:
     def top_shares(self) -> NDArray[np.float64]:
         """Share of agents in category 10 of the sub-tasks I to IV, [4] (Table II)."""
         return np.array([self.share(f"category 10 of {name}") for name in SUBTASKS])
+
+
+def _reading_columns() -> dict[str, Callable[[MeasuredRun], str]]:
+    return {name: lambda run, name=name: _text(run.config.readings.to_mapping()[name]) for name in READINGS}
+
+
+COLUMNS: Final[Mapping[str, Callable[[MeasuredRun], Any]]] = {
+    "condition": lambda run: str(run.config.condition),
+    "seed": lambda run: run.config.seed,
+    "generations": lambda run: run.config.settings.generations,
+    **_reading_columns(),
+    "plateau": lambda run: f"{run.plateau:.6f}",
+    "first generation that solved all trials": lambda run: run.first_solved if run.solved else "never",
+    "share of late generations that did": lambda run: f"{run.solved_late:.4f}",
+    **{name: lambda run, name=name: run.counts[name] for name in COUNTS},
+    **{
+        name: lambda run, place=place: f"{run.successes.ravel()[place]:.4f}"
+        for place, name in enumerate(INSTRUCTION_COLUMNS)
+    },
+}
 
 
 def measured_run(folder: RunFolder) -> MeasuredRun:
@@ -159,7 +175,7 @@ def write_rows(runs: Iterable[MeasuredRun], path: Path) -> None:
         OSError: If it cannot be written.
     """
     make_folder(path.parent)
-    write_atomically(path, to_csv([COLUMNS, *map(_row, runs)]).encode())
+    write_atomically(path, PlainTable(COLUMNS, runs).to_csv().encode())
 
 
 def read_rows(path: Path) -> list[MeasuredRun]:
@@ -174,22 +190,12 @@ def read_rows(path: Path) -> list[MeasuredRun]:
         lines = list(csv.reader(path.read_text(encoding="utf-8").splitlines()))
     except (OSError, ValueError, csv.Error):
         raise ValueError(f"{path} cannot be read; it must be a file of measured rows") from None
-    if not lines or tuple(lines[0]) != COLUMNS:
+    if not lines or lines[0] != list(COLUMNS):
         raise ValueError(f"{path} is no file of measured rows of this version; move it away and repeat")
     runs = [_run(path, number, line) for number, line in enumerate(lines[1:], 2)]
     if len({run.config for run in runs}) < len(runs):
         raise ValueError(f"{path} holds a run twice; leave one of both rows")
     return runs
-
-
-def _row(run: MeasuredRun) -> tuple[object, ...]:
-    config, readings = run.config, run.config.readings.to_mapping()
-    return (
-        str(config.condition), config.seed, config.settings.generations,
-        *(_text(readings[name]) for name in READINGS), f"{run.plateau:.6f}",
-        run.first_solved if run.solved else "never", f"{run.solved_late:.4f}",
-        *(run.counts[name] for name in COUNTS), *(f"{share:.4f}" for share in run.successes.ravel()),
-    )  # fmt: skip
 
 
 def _run(path: Path, number: int, line: list[str]) -> MeasuredRun:

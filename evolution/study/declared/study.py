@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from arm2d import Condition, Readings
+from evolution.report.columns import PlainTable
 from evolution.runs.storage import make_folder, write_atomically
-from evolution.study.declared.claim import answer_rows, answers, averaged_over_worlds, verdict
+from evolution.study.declared.claim import answer_table, answers, averaged_over_worlds, verdict
 from evolution.study.declared.confirmation import (
     DEFAULT,
     LESS_ONE_SEEDS,
@@ -23,13 +24,12 @@ from evolution.study.declared.confirmation import (
     less_one,
     runs_of_worlds,
 )
-from evolution.study.declared.lines import to_csv
 from evolution.study.declared.nearest import spreads
 from evolution.study.declared.parts import GENERATIONS, DeclaredPart, factorial
 from evolution.study.declared.plan import RowFile
 from evolution.study.declared.results import chosen_worlds, regressions, write_factorial
 from evolution.study.declared.rows import MeasuredRun, write_rows
-from evolution.study.declared.verdict import Verdict, decide, duel_rows, less_one_rows, world_rows
+from evolution.study.declared.verdict import Verdict, decide, duel_table, less_one_table, world_table
 
 PARTS: Final = ("factorial", "fresh", "less-one", "hundred")
 ROWS: Final = "rows.csv"
@@ -92,7 +92,7 @@ class DeclaredStudy:
         worlds = fresh_worlds(self._chosen)
         own = runs_of_worlds(runs, worlds)
         found = decide(own, spreads(self._factorial))
-        tables = {"fresh-worlds": world_rows(own, worlds, found), "fresh-duels": duel_rows(found)}
+        tables = {"fresh-worlds": world_table(own, worlds, found), "fresh-duels": duel_table(found)}
         return _write(tables.items(), results), [found.sentence]
 
     def _write_less_one(self, runs: Sequence[MeasuredRun], results: Path) -> Written:
@@ -108,7 +108,7 @@ class DeclaredStudy:
             if len(own) < len(LESS_ONE_SEEDS)
         ]
         told = {factor: own for factor, own in without.items() if own}
-        return _write([("less-one-effects", less_one_rows(_indicate(with_all), told))], results), notes
+        return _write([("less-one-effects", less_one_table(_indicate(with_all), told))], results), notes
 
     def _write_hundred(self, runs: Sequence[MeasuredRun], results: Path) -> Written:
         default = [run for run in runs if run.config.readings == Readings()]
@@ -121,7 +121,7 @@ class DeclaredStudy:
             sources.insert(1, (PRINTED, answers(printed)))
         except ValueError as error:
             notes.append(f"printed readings: {error}")
-        table = [("claim", answer_rows(sources))]
+        table = [("claim", answer_table(sources))]
         said = f"INDICATE fosters compositionality: {verdict(own[0], over_worlds[0].difference)}"
         return _write(table, results), [*notes, said]
 
@@ -163,10 +163,10 @@ def _indicate(runs: Iterable[MeasuredRun]) -> list[MeasuredRun]:
     return [run for run in runs if run.config.condition is Condition.WITH_INDICATE]
 
 
-def _write(tables: Iterable[tuple[str, Iterable[Sequence[object]]]], folder: Path) -> list[Path]:
+def _write(tables: Iterable[tuple[str, PlainTable[Any]]], folder: Path) -> list[Path]:
     """Write tables; their paths."""
     paths = []
-    for name, rows in tables:
+    for name, table in tables:
         paths.append(folder / f"{name}.csv")
-        write_atomically(paths[-1], to_csv(rows).encode())
+        write_atomically(paths[-1], table.to_csv().encode())
     return paths

@@ -5,7 +5,7 @@ Rules as declared in docs/declaration.md. Axes: R runs.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 
 from arm2d import Condition, Readings
 from evolution.experiments.variants import variant_name
+from evolution.report.columns import PlainTable
 from evolution.results.statistics import compare, mean_interval, sign_flip_test
 from evolution.search.randomness import Purpose, generator
 from evolution.study.declared.confirmation import CANDIDATES, PRINTED, RunsOfWorlds
 from evolution.study.declared.nearest import distance
 from evolution.study.declared.outcomes import FIGURES, OUTCOMES, PLATEAU, TOP_SHARES, Outcome
-from evolution.study.declared.regression import Estimate
+from evolution.study.declared.regression import Estimate, estimate_columns
 from evolution.study.declared.rows import MeasuredRun
 from evolution.study.effects import holm
 
@@ -99,58 +100,107 @@ def decide(runs: RunsOfWorlds, spreads: Spreads) -> Verdict:
     return Verdict(distances, min(candidates, key=distances.__getitem__), tuple(duels), tuple(beats))
 
 
-def world_rows(
+def world_table(
     runs: RunsOfWorlds, worlds: Mapping[str, Readings], verdict: Verdict
-) -> Iterable[Sequence[object]]:
+) -> PlainTable[_RunsOfWorld]:
     """One row per world and condition: its figures with 95 % bootstrap intervals over runs."""
-    numbers = [f"{outcome.name}{end}" for outcome in OUTCOMES for end in ("", " low", " high")]
-    yield (
-        "world", "readings", "condition", "runs", "at 18/7", "category 5 of I",
-        "runs with fully compositional agents", *numbers, "distance", "beats printed",
-    )  # fmt: skip
-    for name, own in runs.items():
-        for condition, found in own.items():
-            means = [_mean(outcome.values(found)) for outcome in OUTCOMES]
-            yield (
-                name, variant_name(worlds[name]), str(condition), len(found),
-                sum(run.at_limit for run in found),
-                f"{np.mean([run.share('category 5 of I') for run in found]):.4f}",
-                sum(run.counts["fully compositional"] > 0 for run in found),
-                *(f"{v:.4f}" for each in means for v in (each.value, each.low, each.high)),
-                f"{verdict.distances[name]:.4f}", "yes" if name in verdict.beats else "no",
-            )  # fmt: skip
+    figures = (
+        estimate_columns(
+            outcome.name,
+            f"{outcome.name} low",
+            f"{outcome.name} high",
+            of=lambda row, outcome=outcome: _mean(outcome.values(row.runs)),
+        )
+        for outcome in OUTCOMES
+    )
+    return PlainTable(
+        {
+            "world": lambda row: row.world,
+            "readings": lambda row: variant_name(worlds[row.world]),
+            "condition": lambda row: str(row.condition),
+            "runs": lambda row: len(row.runs),
+            "at 18/7": lambda row: sum(run.at_limit for run in row.runs),
+            "category 5 of I": lambda row: (
+                f"{np.mean([run.share('category 5 of I') for run in row.runs]):.4f}"
+            ),
+            "runs with fully compositional agents": lambda row: sum(
+                run.counts["fully compositional"] > 0 for run in row.runs
+            ),
+            **{name: column for columns in figures for name, column in columns.items()},
+            "distance": lambda row: f"{verdict.distances[row.world]:.4f}",
+            "beats printed": lambda row: "yes" if row.world in verdict.beats else "no",
+        },
+        [
+            _RunsOfWorld(name, condition, found)
+            for name, own in runs.items()
+            for condition, found in own.items()
+        ],
+    )
 
 
-def duel_rows(verdict: Verdict) -> Iterable[Sequence[object]]:
+def duel_table(verdict: Verdict) -> PlainTable[Duel]:
     """One row per duel."""
-    yield "world", "condition", "outcome", "difference", "low", "high", "p", "after Holm"
-    for each in verdict.duels:
-        d = each.difference
-        yield (
-            each.world, str(each.condition), each.outcome.name,
-            *(f"{v:.4f}" for v in (d.value, d.low, d.high)), f"{each.p:.2g}", f"{each.corrected:.2g}",
-        )  # fmt: skip
+    return PlainTable(
+        {
+            "world": lambda duel: duel.world,
+            "condition": lambda duel: str(duel.condition),
+            "outcome": lambda duel: duel.outcome.name,
+            **estimate_columns("difference", "low", "high", of=lambda duel: duel.difference),
+            "p": lambda duel: f"{duel.p:.2g}",
+            "after Holm": lambda duel: f"{duel.corrected:.2g}",
+        },
+        verdict.duels,
+    )
 
 
-def less_one_rows(
+def less_one_table(
     winner: Sequence[MeasuredRun], without: Mapping[str, Sequence[MeasuredRun]]
-) -> Iterable[Sequence[object]]:
+) -> PlainTable[_Cost]:
     """One row per departure and figure: what going back to the default costs, by seed.
 
     Args:
         winner: Its With-Indicate runs.
         without: The runs of the winner less one, by the factor that went back; a seed of the winner's each.
     """
-    yield "factor", "outcome", "seeds", "difference", "low", "high", "p", "after Holm"
     pairs = [(factor, outcome) for factor in without for outcome in JUDGED]
     differences = [_paired(without[factor], winner, outcome) for factor, outcome in pairs]
-    p = np.array([sign_flip_test(each) for each in differences])
-    for (factor, outcome), each, own, corrected in zip(pairs, differences, p, holm(p), strict=True):
-        mean = _mean(each)
-        yield (
-            factor, outcome.name, len(each), *(f"{v:.4f}" for v in (mean.value, mean.low, mean.high)),
-            f"{own:.2g}", f"{corrected:.2g}",
-        )  # fmt: skip
+    p = np.array([sign_flip_test(difference) for difference in differences])
+    costs = [
+        _Cost(factor, outcome, len(difference), _mean(difference), float(own), float(corrected))
+        for (factor, outcome), difference, own, corrected in zip(pairs, differences, p, holm(p), strict=True)
+    ]
+    return PlainTable(
+        {
+            "factor": lambda cost: cost.factor,
+            "outcome": lambda cost: cost.outcome.name,
+            "seeds": lambda cost: cost.seeds,
+            **estimate_columns("difference", "low", "high", of=lambda cost: cost.difference),
+            "p": lambda cost: f"{cost.p:.2g}",
+            "after Holm": lambda cost: f"{cost.corrected:.2g}",
+        },
+        costs,
+    )
+
+
+@dataclass(frozen=True)
+class _RunsOfWorld:
+    """A row of the table of worlds."""
+
+    world: str
+    condition: Condition
+    runs: Sequence[MeasuredRun]
+
+
+@dataclass(frozen=True)
+class _Cost:
+    """A row of the table of departures: what going back with one factor costs in one figure."""
+
+    factor: str
+    outcome: Outcome
+    seeds: int
+    difference: Estimate
+    p: float
+    corrected: float
 
 
 def _distance(own: Mapping[Condition, Sequence[MeasuredRun]], spreads: Spreads) -> float:

@@ -22,12 +22,11 @@ from evolution.study.declared.confirmation import (
     less_one,
     runs_of_worlds,
 )
-from evolution.study.declared.lines import to_csv
 from evolution.study.declared.nearest import spreads
 from evolution.study.declared.parts import factorial
 from evolution.study.declared.results import chosen_worlds, regressions
 from evolution.study.declared.rows import write_rows
-from evolution.study.declared.verdict import decide, duel_rows, less_one_rows, world_rows
+from evolution.study.declared.verdict import decide, duel_table, less_one_table, world_table
 from tests.evolution.study.declared.synthetic import made_up, runs_with_effects
 
 CHOSEN = [Readings(parent_scaling="rank"), Readings(crossover=0.3, mutation_sd=0.03)]
@@ -141,12 +140,12 @@ def test_duels_are_corrected_together(spread):
     assert len(found.duels) == 5 * 2 * 2
     for each in found.duels:
         assert each.p <= each.corrected <= 1
-    rows = list(csv.DictReader(to_csv(duel_rows(found)).splitlines()))
+    rows = list(csv.DictReader(duel_table(found).to_csv().splitlines()))
     assert len(rows) == 20
     worlds = fresh_worlds(CHOSEN)
     table = list(
         csv.DictReader(
-            to_csv(world_rows(runs_of_worlds(made_fresh({"b"}), worlds), worlds, found)).splitlines()
+            world_table(runs_of_worlds(made_fresh({"b"}), worlds), worlds, found).to_csv().splitlines()
         )
     )
     assert len(table) == 14
@@ -179,7 +178,7 @@ def test_what_a_departure_is_worth_is_told_seed_by_seed():
     }
     rows = {
         (r["factor"], r["outcome"]): r
-        for r in csv.DictReader(to_csv(less_one_rows(winner, without)).splitlines())
+        for r in csv.DictReader(less_one_table(winner, without).to_csv().splitlines())
     }
     ties, mutation = rows["ties", "plateau"], rows["mutation", "plateau"]
     assert float(ties["difference"]) == pytest.approx(-0.3, abs=0.02)

@@ -10,14 +10,13 @@ from evolution.cli import main
 from evolution.study.declared.factors import FACTORS
 from evolution.study.declared.held_back import check
 from evolution.study.declared.levels_figure import levels_figure
-from evolution.study.declared.lines import to_csv
 from evolution.study.declared.nearest import active_factors, distance, nearest_worlds, spreads
 from evolution.study.declared.outcomes import FIGURES, OUTCOMES, PLATEAU, SOLVED, TOP_SHARES
 from evolution.study.declared.regression import N_MAIN, design, fit, level_numbers
 from evolution.study.declared.results import (
-    check_rows,
+    check_table,
     chosen_worlds,
-    effect_rows,
+    effect_table,
     regressions,
     write_factorial,
 )
@@ -207,7 +206,7 @@ def test_figure_has_a_row_for_every_level_and_the_published_values(models):
 
 
 def test_tables_say_what_the_regressions_say(models, indicate):
-    rows = list(csv.DictReader(to_csv(effect_rows(models)).splitlines()))
+    rows = list(csv.DictReader(effect_table(models).to_csv().splitlines()))
     assert len(rows) == 2 * len(OUTCOMES) * 52
     (row,) = (
         r
@@ -217,7 +216,7 @@ def test_tables_say_what_the_regressions_say(models, indicate):
     assert float(row["effect"]) == pytest.approx(0.3625, abs=0.06)
     assert int(row["runs"]) == sum(run.config.readings.mutation_sd == 0.03 for run in indicate)
     table = {Condition.WITH_INDICATE: [check(indicate, PLATEAU)]}
-    (told,) = csv.DictReader(to_csv(check_rows(table)).splitlines())
+    (told,) = csv.DictReader(check_table(table).to_csv().splitlines())
     assert told["runs held back"] == "60"
 
 
