@@ -13,6 +13,7 @@ from typing import Any, Final
 import tomli_w
 
 from arm2d import Condition, Readings
+from arm2d.files import NoFileError, read_file
 from evolution.experiments.plan import Plan
 from evolution.experiments.variants import check_name
 from evolution.runs.storage import make_folder, write_atomically
@@ -34,7 +35,7 @@ def write_plan(plan: Plan) -> None:
     """
     make_folder(plan.folder)
     path, text = plan.folder / FILE, plan_text(plan).encode()
-    if not path.exists() or path.read_bytes() != text:
+    if not _holds(path, text):
         write_atomically(path, text)
 
 
@@ -65,7 +66,7 @@ def read_plan(folder: Path) -> Plan | None:
     """
     path = folder / FILE
     try:
-        text = path.read_text(encoding="utf-8")
+        text = read_file(path, LONGEST).decode()
     except FileNotFoundError:
         return None
     except (OSError, ValueError):
@@ -91,6 +92,14 @@ def _plan_of(folder: Path, values: dict[str, Any]) -> Plan:
         names[base.readings, base.settings] = check_name(table["name"])
         configs += [replace(base, seed=seed) for seed in table["seeds"]]
     return Plan(folder, tuple(configs), values["post_evaluate"] is True, names)
+
+
+def _holds(path: Path, text: bytes) -> bool:
+    """Whether a file is this text."""
+    try:
+        return read_file(path, len(text)) == text
+    except (OSError, NoFileError):
+        return False
 
 
 def _unsound(path: Path, found: str) -> ValueError:

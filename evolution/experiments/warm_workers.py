@@ -16,6 +16,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from arm2d.files import handle_to_append
 from evolution.experiments.fork_server import LARGEST_MESSAGE
 from evolution.experiments.workers import LOST, Ended, Job, Worker
 from evolution.runs.storage import make_folder
@@ -111,7 +112,7 @@ class _Server:
     def __init__(self, log: Path) -> None:
         make_folder(log.parent)
         self._socket, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        with theirs, log.open("ab") as output:
+        with theirs, os.fdopen(handle_to_append(log), "ab") as output:
             self._process = subprocess.Popen(  # noqa: S603 - our own program
                 [sys.executable, "-m", "evolution.experiments.fork_server", str(theirs.fileno())],
                 stdin=subprocess.DEVNULL,

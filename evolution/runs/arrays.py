@@ -27,6 +27,8 @@ HEADERS: Final = {
     (2, 0): np.lib.format.read_array_header_2_0,
 }
 ENDING: Final = ".npy"
+# How an archive's directory begins what it tells of a member.
+ENTRY: Final = b"PK\x01\x02"
 
 
 class UnreadableError(ValueError):
@@ -39,12 +41,14 @@ def unpack_archive(data: bytes) -> dict[str, NDArray]:
     Raises:
         UnreadableError: If it is none, or its content is larger than `LARGEST_CONTENT`.
     """
+    if data.count(ENTRY) > MOST_ARRAYS:  # told before a list of them is made
+        raise UnreadableError(f"it holds more than {MOST_ARRAYS} arrays")
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             members = archive.infolist()
             _check_members(members)
-            # A member never gives more bytes than its size, which was added up above.
-            return {each.filename.removesuffix(ENDING): unpack_array(archive.read(each)) for each in members}
+            contents = {each.filename.removesuffix(ENDING): _content(archive, each) for each in members}
+            return {name: unpack_array(content) for name, content in contents.items()}
     except UnreadableError:
         raise
     # What a broken or foreign archive brings about in the reader, encryption included.
@@ -68,7 +72,8 @@ def unpack_array(data: bytes) -> NDArray:
     """
     stream = io.BytesIO(data)
     shape, by_columns, dtype = _header(stream)
-    if dtype.hasobject or dtype.kind not in KINDS:
+    # Of items without a byte any number would fit.
+    if dtype.hasobject or dtype.kind not in KINDS or not dtype.itemsize:
         raise UnreadableError(f"it holds {dtype}, not numbers or text")
     room = len(data) - stream.tell()
     if any(n < 0 for n in shape) or math.prod(shape) * dtype.itemsize != room:
@@ -81,6 +86,12 @@ def unpack_array(data: bytes) -> NDArray:
     if dtype.kind == "U" and not _is_text(array):
         raise UnreadableError("it holds text with characters that do not exist")
     return array
+
+
+def _content(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> bytes:
+    """The bytes of a member; unpacked no further than its size, which may be a lie."""
+    with archive.open(member) as file:
+        return file.read(member.file_size)
 
 
 def _check_members(members: list[zipfile.ZipInfo]) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from numpy.typing import NDArray
 
+from arm2d.files import NoFileError, read_file
 from evolution.runs.arrays import LARGEST_CONTENT, UnreadableError, unpack_archive, unpack_array
 
 
@@ -20,12 +21,10 @@ def read_genotype_file(path: Path) -> Mapping[str, NDArray]:
         OSError: If it cannot be read.
     """
     refusal = f"{path} is not a genotype file: give an .npz with an array genotypes [P, 84], or an .npy"
-    if path.stat().st_size > LARGEST_CONTENT:
-        raise ValueError(f"{refusal}; this file is larger than {LARGEST_CONTENT // 2**20} MB")
-    data = path.read_bytes()
     try:
+        data = read_file(path, LARGEST_CONTENT)
         if zipfile.is_zipfile(io.BytesIO(data)):
             return unpack_archive(data)
         return {"genotypes": unpack_array(data)}
-    except UnreadableError as error:
+    except (NoFileError, UnreadableError) as error:
         raise ValueError(f"{refusal} ({error})") from None

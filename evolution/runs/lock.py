@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Final, TextIO
 
+from arm2d.files import LinkError, handle_to_append
 from evolution.runs.folder import LOCK
 from evolution.runs.lease import RunInUseError, leased
 
@@ -58,6 +59,8 @@ def _lock(file: TextIO, folder: Path) -> bool:
 def _open(path: Path) -> TextIO:
     """The lock file, made if need be, for reading and writing."""
     try:
-        return path.open("a+", encoding="utf-8")
+        return os.fdopen(handle_to_append(path, read=True), "a+", encoding="utf-8")
+    except LinkError as error:
+        raise OSError(str(error)) from None
     except OSError as error:
         raise OSError(f"{path.parent} cannot be written: {error.strerror}; choose another folder") from None

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
+from arm2d.files import read_file
+
 # A config.toml has some 700 characters.
 LONGEST_TEXT: Final = 32_768
 DEEPEST: Final = 8
@@ -16,8 +18,7 @@ MOST_POINTS: Final = 2_000
 
 def read_toml_file(path: Path) -> dict[str, Any]:
     """The values of a file, of which no more is read than is allowed; raises as `read_toml`."""
-    with path.open(encoding="utf-8", newline="") as file:
-        return read_toml(file.read(LONGEST_TEXT + 1))
+    return read_toml(read_file(path, 4 * LONGEST_TEXT).decode())
 
 
 def read_toml(text: str, longest: int = LONGEST_TEXT) -> dict[str, Any]:

@@ -6,6 +6,7 @@ killed or runs out of memory, signals reach the job, and jobs of one worker do n
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
@@ -14,6 +15,7 @@ from typing import Final
 
 from distributed import get_worker
 
+from arm2d.files import handle_to_append
 from evolution.experiments.cluster.agreement import Order, disagreement
 from evolution.experiments.plan import in_use
 from evolution.experiments.workers import Ended, Job, Worker
@@ -46,7 +48,7 @@ class LeashedWorker(Worker):
     """A job's process, which ends when this one does."""
 
     def _begin(self) -> None:
-        with self.job.log.open("ab") as log:
+        with os.fdopen(handle_to_append(self.job.log), "ab") as log:
             self._process = subprocess.Popen(  # noqa: S603 - our own program
                 [sys.executable, "-m", "evolution.experiments.cluster.leash", *self.job.arguments],
                 stdin=subprocess.PIPE,
