@@ -7,9 +7,8 @@ belongs to, so that a file of another run is not taken for one of this.
 from __future__ import annotations
 
 import hashlib
-import os
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -191,10 +190,9 @@ def refuse_other(path: Path, config: RunConfig) -> None:
 
 def _refuse_links(path: Path) -> None:
     """Refuse a run whose own files or folders lie elsewhere, for there would be written."""
-    with suppress(FileNotFoundError), os.scandir(path) as entries:
-        for each in entries:
-            if each.name in OWN_FILES and each.is_symlink():
-                raise ValueError(
-                    f"{path / each.name} is a symbolic link, but a run's files lie in its folder; "
-                    "remove the link, or put there what it leads to"
-                )
+    for name in sorted(OWN_FILES):
+        if (path / name).is_symlink():
+            raise ValueError(
+                f"{path / name} is a symbolic link, but a run's files lie in its folder; "
+                "remove the link, or put there what it leads to"
+            )
