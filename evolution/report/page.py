@@ -7,7 +7,7 @@ All numbers come from `evolution.results.analysis`; here they become text, table
 from __future__ import annotations
 
 import json
-import os
+import shlex
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
@@ -31,6 +31,7 @@ from evolution.report.configuration import readings_rows, settings_rows, version
 from evolution.report.pictures import figure_uri, file_uri
 from evolution.report.recordings import recordings_of
 from evolution.report.report_tables import category_tables, comparison_rows, departures_in_size, run_rows
+from evolution.report.safety import content_policy, link_to
 from evolution.report.sentences import result_sentences, standing_of_best
 from evolution.report.tables import main_lines
 from evolution.results.generaliser_text import generalisers_sentence
@@ -59,7 +60,8 @@ def write_report(results: Results, path: Path) -> Path:
         OSError: If it cannot be written.
     """
     make_folder(path.parent)
-    write_atomically(path, render(results, path.parent).encode())
+    # Names of folders and files may be no text at all.
+    write_atomically(path, render(results, path.parent).encode(errors="replace"))
     return path
 
 
@@ -72,7 +74,8 @@ def render(results: Results, home: Path) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    return environment.get_template(TEMPLATE).render(_content(results, home))
+    policy = content_policy(Path(__file__).with_name(TEMPLATE).read_text(encoding="utf-8"))
+    return environment.get_template(TEMPLATE).render(policy=policy, **_content(results, home))
 
 
 def _content(results: Results, home: Path) -> dict[str, Any]:
@@ -112,6 +115,7 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
 def _agent(each: ConditionResults, agent: Agent, experiment: Path) -> dict[str, Any]:
     """The best agent of a condition: its heat map, its recordings, and figures that lie beside its run."""
     instructions = each.condition.instructions
+    figures, refused = _figures_beside(agent)
     cells = [
         _cell(str(instruction), instruction in NON_EXPERIENCED, int(agent.successes[index]))
         for index, instruction in enumerate(instructions)
@@ -122,11 +126,12 @@ def _agent(each: ConditionResults, agent: Agent, experiment: Path) -> dict[str, 
         "seed": agent.run.config.seed,
         "generation": agent.generation,
         "rank": agent.rank,
-        "source": str(agent.run.path.relative_to(experiment)),
+        "source": shlex.quote(str(agent.run.path.relative_to(experiment))),
         "rows": [cells[start : start + 3] for start in (0, 3, 6)],
         "objects": [(word.name.capitalize(), colour) for word, colour in OBJECT_COLOURS.items()],
         "recordings": recordings_of(agent),
-        "figures": list(_figures_beside(agent)),
+        "figures": figures,
+        "refused": refused,
     }
 
 
@@ -154,20 +159,27 @@ def _cell(instruction: str, never_met: bool, successes: int) -> dict[str, Any]:
     }
 
 
-def _figures_beside(agent: Agent) -> Iterable[tuple[str, str]]:
-    """(caption, picture) of what was drawn for exactly this agent."""
+def _figures_beside(agent: Agent) -> tuple[list[tuple[str, str]], list[str]]:
+    """(caption, picture) of what was drawn for exactly this agent; a sentence for each that is not shown."""
     stem = f"generation-{agent.generation:06d}-rank-{agent.rank}"
+    figures, refused = [], []
     for folder, caption in FIGURE_FOLDERS.items():
         for path in sorted((agent.run.path / folder).glob(f"{stem}*.svg")):
             what = path.stem.removeprefix(stem).strip("-").replace("-", " ")
-            yield (f"{caption}: {what}" if what else caption), file_uri(path)
+            try:
+                figures.append((f"{caption}: {what}" if what else caption, file_uri(path)))
+            except (ValueError, OSError) as error:
+                refused.append(f"{path} is not shown: {error}")
+    return figures, refused
 
 
 def _films(experiment: Path, home: Path) -> Iterable[tuple[str, str]]:
-    """(name, relative link) of every film that lies beside the runs."""
+    """(name, relative link) of every film that lies beside the runs; links and unfinished files are none."""
     for path in sorted([*experiment.glob("videos/*.mp4"), *experiment.glob("*/*/videos/*.mp4")]):
+        if path.name.startswith(".") or path.is_symlink() or path.parent.is_symlink() or not path.is_file():
+            continue
         parts = [part for part in path.relative_to(experiment).parts[:-1] if part != "videos"]
-        yield ", ".join([*parts, path.stem.replace("-", " ")]), os.path.relpath(path, home)
+        yield ", ".join([*parts, path.stem.replace("-", " ")]), link_to(path, home)
 
 
 def _embedded(value: object) -> Markup:
