@@ -17,14 +17,20 @@ from evolution.report.rows import (
     to_csv,
     transition_rows,
 )
-from evolution.results.analysis import interval_of_mean
+from evolution.results.analysis import check_some_tested, interval_of_mean
 from evolution.results.generaliser_text import generalisers_sentence
 from evolution.results.records import ConditionResults, Results
 from evolution.runs.storage import make_folder, write_arrays, write_atomically
 
 
 def write_results(results: Results, folder: Path) -> list[Path]:
-    """Write everything into a folder; the paths, tables first."""
+    """Write everything into a folder; the paths, tables first.
+
+    Raises:
+        ValueError: If no run can be analysed; nothing is written then.
+        OSError: If it cannot be written.
+    """
+    check_some_tested(results)
     make_folder(folder)
     tables = {
         "table-ii.csv": table_ii_rows(results),

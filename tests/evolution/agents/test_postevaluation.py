@@ -137,6 +137,18 @@ def test_an_unfinished_run_is_told_how_to_go_on(tmp_path):
     assert parse(command.split()[1:]).config == config
 
 
+def test_an_experiment_without_a_tested_run_is_not_analysed_and_nothing_is_written(
+    finished_run, tmp_path, capsys
+):
+    run = shutil.copytree(finished_run, tmp_path / "an experiment" / "with-indicate" / "seed-0011")
+    before = sorted(tmp_path.rglob("*"))
+    assert main(["analyse", str(tmp_path / "an experiment")]) == 2
+    error = capsys.readouterr().err
+    assert "an experiment has no run that can be analysed: with-indicate, seed 11: left out, not " in error
+    assert error.endswith(f"post-evaluated; go on with: wordarm postevaluate '{run}'\n")
+    assert sorted(tmp_path.rglob("*")) == before
+
+
 def test_tests_go_on_past_a_damaged_run_and_end_with_its_name(experiment, tmp_path, capsys):
     copy = shutil.copytree(experiment, tmp_path / "copy")
     damaged = RunFolder.open(copy / "with-indicate" / "seed-0001")
