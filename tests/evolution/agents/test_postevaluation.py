@@ -128,6 +128,27 @@ def test_an_unreadable_run_and_a_missing_seed_are_named(experiment, tmp_path):
     assert results.conditions[Condition.WITH_INDICATE].seeds.tolist() == [2]
 
 
+def test_a_run_copied_inside_its_experiment_is_counted_once_and_named(experiment, tmp_path):
+    copy = shutil.copytree(experiment, tmp_path / "copy")
+    original = copy / "with-indicate" / "seed-0002"
+    for name in ("seed-0002 (copy)", "backup", "seed-0001.old"):
+        shutil.copytree(original, copy / "with-indicate" / name)
+    results = analyse(open_experiment(copy))
+    assert results.conditions[Condition.WITH_INDICATE].seeds.tolist() == [1, 2]
+    assert results.conditions[Condition.WITH_INDICATE].runs[1].path == original
+    assert sorted(results.missing) == sorted(
+        f"{copy / 'with-indicate' / name} holds the same run as {original} (configuration and seed), "
+        "which is counted once; move the copy elsewhere"
+        for name in ("seed-0002 (copy)", "backup", "seed-0001.old")
+    )
+
+
+def test_runs_that_differ_in_anything_but_their_folder_are_no_copies(experiment):
+    runs = open_experiment(experiment)
+    assert len(runs.all_runs) == 4
+    assert runs.copies == ()
+
+
 def test_an_unfinished_run_is_told_how_to_go_on(tmp_path):
     config = RunConfig(Condition.WITH_IGNORE, 3)
     run = RunFolder.create(tmp_path / "with-ignore" / "seed-0003", config)
