@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from arm2d.readings import Readings
     from arm2d.running import record_trial, run_trials
     from arm2d.trials import LabelChanges, TrialRecord, Trials, TrialScores, draw_trials
+    from arm2d.vector_world import INPUT_NAMES, VectorWorld
     from arm2d.video import render_video
+    from arm2d.world import World
 
 _HOMES = {
     "drawing": ("draw_state",),
@@ -28,6 +30,8 @@ _HOMES = {
     "instructions": ("ActionWord", "Condition", "Instruction", "NON_EXPERIENCED", "ObjectWord"),
     "readings": ("Readings",),
     "running": ("record_trial", "run_trials"),
+    "world": ("World",),
+    "vector_world": ("INPUT_NAMES", "VectorWorld"),
     "trials": ("LabelChanges", "TrialRecord", "TrialScores", "Trials", "draw_trials"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
@@ -47,6 +51,9 @@ __all__ = [  # noqa: RUF022 - in the order of _HOMES
     "Readings",
     "record_trial",
     "run_trials",
+    "World",
+    "INPUT_NAMES",
+    "VectorWorld",
     "LabelChanges",
     "TrialRecord",
     "TrialScores",

@@ -18,6 +18,7 @@ from matplotlib.patches import Arc, Circle, Wedge
 from arm2d import constants as c
 from arm2d.instructions import ObjectWord
 from arm2d.trials import TrialRecord
+from arm2d.view import camera_position
 
 Shape = TypeVar("Shape", Circle, Wedge)
 
@@ -33,7 +34,7 @@ CONTACT: Final = "#111111"
 
 # Everything the arm and its objects can reach, with room for the instruction above [cm].
 LIMITS: Final = ((-180.0, 180.0), (-104.0, 200.0))
-CAMERA_RANGE: Final = 172.0
+CAMERA_RANGE: Final = 172.0  # from J1, straight ahead
 # The world gives S2 no width and S1 no obstacle; these only make them visible [cm].
 S1_WIDTH: Final = 7.0
 S2_WIDTH: Final = 3.4
@@ -50,20 +51,29 @@ class Scene:
     Args:
         axes: Where to draw; cleared of ticks and scaled to the world.
         record: The trial.
-        caption: Whether to write the instruction above the world and, in the end, how it went.
+        caption: Whether to write the instruction above the world.
         note: A line under the instruction, such as the agent and the trial it is about.
+        outcome: Whether to say how it went, by default with the caption; not of a trial that goes on.
     """
 
-    def __init__(self, axes: Axes, record: TrialRecord, *, caption: bool = True, note: str = "") -> None:
-        self._record, self._caption = record, caption
+    def __init__(
+        self,
+        axes: Axes,
+        record: TrialRecord,
+        *,
+        caption: bool = True,
+        note: str = "",
+        outcome: bool | None = None,
+    ) -> None:
+        self._record, self._outcome = record, caption if outcome is None else outcome
         axes.set(xlim=LIMITS[0], ylim=LIMITS[1], aspect="equal", facecolor=FLOOR, xticks=[], yticks=[])
         axes.spines[:].set_visible(False)
         points = _points_per_cm(axes)
         _draw_ground(axes, record, points)
         edge = {"ec": FLOOR, "lw": 0.5 * points, "zorder": 1}
+        reach = CAMERA_RANGE - np.hypot(*camera_position(0.0, record.readings))
         self._camera = [
-            _add(axes, Wedge((0, 0), CAMERA_RANGE, 0, 1, fc=(CAMERA, alpha), **edge))
-            for alpha in (0.28, 0.55, 0.28)
+            _add(axes, Wedge((0, 0), reach, 0, 1, fc=(CAMERA, alpha), **edge)) for alpha in (0.28, 0.55, 0.28)
         ]
         radius = record.readings.object_radius
         self._halos = [
@@ -102,7 +112,9 @@ class Scene:
         edges = alpha + np.array(
             [-c.VIEW_HALF_WIDTH, -c.MIDDLE_SECTOR_HALF_WIDTH, c.MIDDLE_SECTOR_HALF_WIDTH, c.VIEW_HALF_WIDTH]
         )
+        eye = tuple(camera_position(alpha, self._record.readings))
         for sector, low, high in zip(self._camera, edges[:-1], edges[1:], strict=True):
+            sector.set_center(eye)
             sector.set_theta1(low)
             sector.set_theta2(high)
         for disc, halo, centre, touches in zip(self._discs, self._halos, discs, touched, strict=True):
@@ -114,7 +126,7 @@ class Scene:
     def _time(self, step: float) -> str:
         """The clock and, at the end of a captioned trial, whether the instruction was carried out."""
         outcome = ""
-        if self._caption and step == self._record.steps:
+        if self._outcome and step == self._record.steps:
             outcome = "carried out, " if self._record.success else "not carried out, "
         return f"{outcome}{step * c.DT:.1f} s"
 

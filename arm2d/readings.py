@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
+from functools import cache
 from itertools import pairwise
 from math import degrees
 from typing import Any, Literal, get_args, get_origin, get_type_hints
@@ -29,8 +30,8 @@ class Readings:
     takes the same total step as 0.04 with 0.1."""
 
     parent_scaling: Literal["raw", "cubed", "excess", "rank"] = "raw"
-    """"fitness-proportional": parents are drawn in proportion to their fitness, to its cube, to what it
-    exceeds that of the best genotype that cannot be a parent by, or to their rank from 2 down to 0."""
+    """"fitness-proportional": parents are drawn in proportion to their fitness, to its cube, to its excess
+    over the best genotype that is no candidate, or to their rank, from 2 for the best to 0 for the last."""
 
     ties: Literal["elders", "children"] = "elders"
     """Not said: of equally fit genotypes those copied on unchanged rank before their children, or after
@@ -171,6 +172,7 @@ class Readings:
         return (right - half, right + half), (left - half, left + half)
 
 
+@cache
 def choices() -> dict[str, tuple[str, ...]]:
     """The allowed values of every reading that is a choice between words."""
     hints = get_type_hints(Readings)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -196,6 +196,7 @@ def draw_trials(
     )
 
 
+@lru_cache(maxsize=64)
 def _chord_ends(readings: Readings) -> NDArray[np.float64]:
     """Both ends of each sector's chord, [2, 3, 2] in [cm]."""
     ends = np.empty((2, c.N_OBJECTS, 2))
@@ -203,6 +204,7 @@ def _chord_ends(readings: Readings) -> NDArray[np.float64]:
         for end, side in enumerate((-1.0, 1.0)):
             sine, cosine = sin_cos(centre + side * readings.sector_half_width)
             ends[end, disc] = c.CHORD_END_DISTANCE * cosine, c.CHORD_END_DISTANCE * sine
+    ends.flags.writeable = False
     return ends
 
 

@@ -32,17 +32,25 @@ class Panel:
         record: The trial.
         width_px: Width and
         height_px: height of a frame.
-        caption: Whether the instruction and, in the end, the outcome are written into it.
+        caption: Whether the instruction is written into it.
         note: A line under the instruction.
+        outcome: Whether it says in the end how it went, by default with the caption.
     """
 
     def __init__(
-        self, record: TrialRecord, width_px: int, height_px: int, *, caption: bool = True, note: str = ""
+        self,
+        record: TrialRecord,
+        width_px: int,
+        height_px: int,
+        *,
+        caption: bool = True,
+        note: str = "",
+        outcome: bool | None = None,
     ) -> None:
         figure = Figure(figsize=(width_px / DPI, height_px / DPI), dpi=DPI, facecolor=FLOOR)
         self._canvas = FigureCanvasAgg(figure)
         self._axes = figure.add_axes((0, 0, 1, 1))
-        self._scene = Scene(self._axes, record, caption=caption, note=note)
+        self._scene = Scene(self._axes, record, caption=caption, note=note, outcome=outcome)
         for artist in self._scene.moving:
             artist.set_animated(True)
         self._canvas.draw()

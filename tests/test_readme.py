@@ -52,6 +52,11 @@ def test_tour_of_the_api_runs_as_printed(tmp_path):
     assert (tmp_path / "touch-green.mp4").stat().st_size > 10_000
 
 
+def test_code_of_the_page_on_worlds_runs_as_printed(tmp_path):
+    code = python_of(ROOT / "docs" / "worlds.md")
+    subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, check=True)
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_and_pictures_exist(page):
     links = re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8"))

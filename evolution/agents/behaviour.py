@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import Condition, Instruction, Readings, TrialRecord, Trials, decode, draw_trials, record_trial
 from arm2d.arithmetic import sigmoid
-from arm2d.constants import MAX_STEPS, N_INTER, VIEW_HALF_WIDTH
-from evolution.agents.lineage_scores import offsets
+from arm2d.constants import MAX_STEPS, N_INTER
+from arm2d.view import in_view
 from evolution.search.randomness import Purpose, generator
 
 TRIALS_PER_AREA: Final = 20
@@ -123,7 +123,7 @@ def draw_behaviour_trials(condition: Condition, readings: Readings, per_area: in
 def _events(record: TrialRecord) -> tuple[int, int]:
     """Rows of first sight and first touch of the target, or -1."""
     target = record.instruction.object
-    seen = offsets(record.alpha, record.discs[:, target]) <= VIEW_HALF_WIDTH
+    seen = in_view(record.alpha, record.discs[:, target], record.readings)
     return _first(seen), _first(record.contact[:, target] != 0)
 
 

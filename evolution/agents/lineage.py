@@ -2,7 +2,8 @@
 
 Parents are recorded as indices, so the line is first walked backwards through them; then the run's
 populations are bred again from generation 0 on, once, and the ancestor of each is kept. Nothing is
-scored. Axes: G generations of the line, 84 genes.
+scored. Where a child has two parents (reading `crossover`), the line follows the first, whose genes stand
+before the cut; genes after it then come from outside the line. Axes: G generations of the line, 84 genes.
 """
 
 from __future__ import annotations

@@ -12,6 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 from arm2d import TrialRecord
+from arm2d.view import camera_position
 from evolution.agents.recording import record_instruction
 from evolution.results.notable import Agent
 from evolution.runs.sources import find_source
@@ -38,6 +39,7 @@ def recordings_of(agent: Agent) -> dict[str, Any]:
         "radius": readings.object_radius,
         "centres": list(readings.sector_centres),
         "half_width": readings.sector_half_width,
+        "camera": float(camera_position(0.0, readings)[0]),  # how far along S1 [cm]
         "trials": trials,
     }
 

@@ -15,7 +15,7 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import astuple, dataclass, fields
 from importlib.resources import files
 from pathlib import Path
-from typing import Final, Literal
+from typing import Any, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -183,34 +183,33 @@ def _outcome(row: Sequence[str]) -> Outcome:
 
 
 _lab = None
-_eyes = None
+_eyes: dict[str, Any] = {}  # by where the camera sits
 
 
 def _move_in(robot: str) -> None:
     """Build the robot of this process once."""
-    global _lab, _eyes
+    global _lab
     from mujoco_port.acting.lab import Lab
 
-    _lab, _eyes = Lab(get_robot(robot)), None
+    _lab = Lab(get_robot(robot))
+    _eyes.clear()
 
 
 def carry_out_job(job: Job) -> Outcome:
     """One trial in both worlds, on the robot of this process."""
-    global _eyes
     if _lab is None:
         raise RuntimeError("there is no robot in this process")
     agent, readings = job.agent, job.agent.readings
     scores = run_trials(agent.genotype[np.newaxis], job.trial, readings)
-    if job.loop == "camera" and _eyes is None:
+    if job.loop == "camera" and readings.camera_origin not in _eyes:
         from mujoco_port.acting.camera import CameraEyes
 
-        _eyes = CameraEyes(_lab.body)
+        _eyes[readings.camera_origin] = CameraEyes(_lab.body, readings)
     if job.loop in ("open", "delayed"):
         record, verdict = _lab.open_loop(agent.genotype, job.trial, readings, int(job.loop == "delayed"))
     else:
-        record, verdict = _lab.closed_loop(
-            agent.genotype, job.trial, readings, _eyes if job.loop == "camera" else None
-        )
+        eyes = _eyes[readings.camera_origin] if job.loop == "camera" else None
+        record, verdict = _lab.closed_loop(agent.genotype, job.trial, readings, eyes)
     return Outcome(
         agent.name,
         job.loop,

@@ -1,8 +1,9 @@
 """Eyes made of a camera: a picture is rendered in which every pixel names the object it shows.
 
-The camera stands in J1, as high as the objects' middle, and looks along S1. It sees more than the 30 degrees
-of the agent's field of view, so that an object at its rim is seen as a whole, and its middle where it is, and
-so that the hand need not come down on what lies below it.
+The camera stands in J1, or at the end of S1 (reading `camera_origin`), as high as the objects' middle, and
+looks along S1. It sees more than the 30 degrees of the agent's field of view, so that an object at its rim
+is seen as a whole, and its middle where it is, and so that the hand need not come down on what lies below
+it. For that the robot always looks from J1: a bent S2 lies outside the field of a camera at its beginning.
 
 Import only after `mujoco_port.film.gl.choose_back_end`.
 """
@@ -15,10 +16,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.constants import CHORD_END_DISTANCE
+from arm2d import Readings
+from arm2d.constants import CHORD_END_DISTANCE, S1_LENGTH
+from arm2d.view import camera_position
 from models.build import VISUAL_GROUP
 from models.physics import EYE, OBJECTS
 from mujoco_port.acting.control import Body
+from mujoco_port.acting.rollout import Sight
+from mujoco_port.reach.workspace import on_table
 
 WIDTH_PX: Final = 640
 HEIGHT_PX: Final = 64
@@ -36,10 +41,11 @@ class CameraEyes:
 
     Args:
         body: The robot.
+        readings: Where the agent's camera sits.
     """
 
-    def __init__(self, body: Body) -> None:
-        self._body = body
+    def __init__(self, body: Body, readings: Readings | None = None) -> None:
+        self._body, self._readings = body, readings or Readings()
         self._renderer = mujoco.Renderer(body.model, HEIGHT_PX, WIDTH_PX)
         self._renderer.enable_segmentation_rendering()
         self._shown = mujoco.MjvOption()
@@ -62,24 +68,41 @@ class CameraEyes:
         """Give the renderer's memory back."""
         self._renderer.close()
 
-    def __call__(self, alpha: float) -> NDArray[np.float64]:
-        """Where each object seems to be, [3, 2] in [cm] of the 2D world; how far away it is, is not seen."""
+    def __call__(self, alpha: float) -> Sight:
+        """Where each object seems to be; how far away it is, is not seen."""
+        from_j1 = self._look(alpha, np.zeros(2), CHORD_END_DISTANCE)
+        if self._readings.camera_origin == "J1":
+            return Sight(from_j1, from_j1)
+        place = camera_position(alpha, self._readings)
+        return Sight(self._look(alpha, place, CHORD_END_DISTANCE - S1_LENGTH), from_j1)
+
+    def _look(self, alpha: float, place: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
+        """Where objects seem to be from a place [2], each put so far away from it, [3, 2], all in [cm]."""
         half = np.radians(alpha - 90.0) / 2
         upright = np.array([np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0])  # looking along y, z up
         turn = np.array([np.cos(half), 0.0, 0.0, np.sin(half)])
         mujoco.mju_mulQuat(self._body.model.cam_quat[self._camera], turn, upright)
+        self._body.model.cam_pos[self._camera, :2] = on_table(self._body.robot.plane, place)
         mujoco.mj_camlight(self._body.model, self._body.data)
         self._renderer.update_scene(self._body.data, self._camera, self._shown)
         kinds = self._renderer.render()
-        return np.array([self._place(kinds, geom, alpha) for geom in self._geoms])
+        bearings = [self._bearing(kinds, geom, alpha) for geom in self._geoms]
+        return np.array([_placed(place, bearing, distance) for bearing in bearings])
 
-    def _place(self, kinds: NDArray, geom: int, alpha: float) -> tuple[float, float]:
-        """The middle of the columns in which an object is seen, put as far away as a chord's end."""
+    def _bearing(self, kinds: NDArray, geom: int, alpha: float) -> float | None:
+        """The middle of the columns in which an object is seen, as a bearing [deg]; None if it is not."""
         shown = (kinds[..., 0] == geom) & (kinds[..., 1] == GEOM)
         columns = np.flatnonzero(shown.any(axis=0))
         if not len(columns):
-            return BEHIND
+            return None
         # The rims of a disc lie at equal angles to both sides of its middle, not at equal pixels.
         left, right = np.degrees(np.arctan(self._across[columns[[0, -1]]]))
-        bearing = np.radians(alpha - (left + right) / 2)
-        return CHORD_END_DISTANCE * np.cos(bearing), CHORD_END_DISTANCE * np.sin(bearing)
+        return float(alpha - (left + right) / 2)
+
+
+def _placed(place: NDArray[np.float64], bearing: float | None, distance: float) -> tuple[float, float]:
+    """Where an object seems to be [cm]: at a bearing [deg] and a distance from a place, or behind."""
+    if bearing is None:
+        return BEHIND
+    angle = np.radians(bearing)
+    return place[0] + distance * np.cos(angle), place[1] + distance * np.sin(angle)

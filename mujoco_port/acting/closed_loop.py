@@ -1,8 +1,9 @@
 """Closed loop: the agent's inputs come from the robot, and the 2D world is not asked.
 
 What S2 knows, the robot has to find out: beta from where its hand is, touch from the skin on the two sides of
-its hand, the objects' bearings from eyes in J1 that look along S1. An order takes effect one control step
-after what it answers to was sensed: the cubic that leads to a place has to know how fast it is to be left.
+its hand, the objects' bearings from eyes in J1, or at the end of S1, that look along S1. An order takes
+effect one control step after what it answers to was sensed: the cubic that leads to a place has to know how
+fast it is to be left.
 """
 
 from __future__ import annotations

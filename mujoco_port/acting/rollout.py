@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, Protocol
+from typing import Final, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,12 +26,26 @@ from mujoco_port.reach.kinematics import ArmKinematics
 from mujoco_port.reach.workspace import hand_headings, hand_targets, on_table, tip_in_plane
 
 Angles = tuple[float, float]  # alpha and beta in [deg]
-# Eyes look along alpha [deg] and give where each object seems to be, [3, 2] in [cm] of the 2D world.
-Eyes = Callable[[float], NDArray[np.float64]]
 # A 2D trial ends after 250 steps. A step there counts by its last moment, so 100 good ones may be all but a
 # step of 10 s, and in closed loop orders come a step late: the robot has half a second more to be judged.
 MOST_STEPS: Final = MAX_STEPS + 5
 MOST_RISE: Final = 0.4  # of the way up, or down, in a control step
+
+
+class Sight(NamedTuple):
+    """Where each object seems to be, [3, 2] in [cm] of the 2D world.
+
+    Attributes:
+        by_camera: To the agent's camera, in J1 or at the end of S1.
+        from_j1: To an eye in J1, by which the robot avoids coming down on an object.
+    """
+
+    by_camera: NDArray[np.float64]
+    from_j1: NDArray[np.float64]
+
+
+# Eyes look along alpha [deg].
+Eyes = Callable[[float], Sight]
 
 
 class Pilot(Protocol):
@@ -46,7 +60,7 @@ class Pilot(Protocol):
 
         Args:
             so_far: The trial up to now, without a row at its start.
-            seen: [3, 2] in [cm] of the 2D world, where the robot's eyes see the objects now.
+            seen: [3, 2] in [cm] of the 2D world, where the agent's camera sees the objects now.
 
         Returns:
             None at the end of the orders.
@@ -119,7 +133,7 @@ def carry_out(
         body: The robot; where it was before does not matter.
         kinematics: Its inverse kinematics.
         pilot: Who gives the orders.
-        eyes: How the robot sees objects, so as not to come down on one.
+        eyes: How agent and robot see objects.
         instruction: What is asked; only kept.
         discs: [3, 2] in [cm], centres of blue, green and red at the start.
         ended: Asked after every control step.
@@ -147,10 +161,10 @@ def carry_out(
     raised = 0.0
     for step in range(MOST_STEPS):
         seen = eyes(orders[step][0])
-        order = pilot.after(record, seen)
+        order = pilot.after(record, seen.by_camera)
         last = order is None
         orders.append(orders[-1] if order is None else order)
-        wanted = above_objects(body, on_table(plane, seen), record, orders[-1])
+        wanted = above_objects(body, on_table(plane, seen.from_j1), record, orders[-1])
         raised += float(np.clip(wanted - raised, -MOST_RISE, MOST_RISE))
         joints.append(joints[-1] if order is None else solve(order, joints[-1], raised))
         before = max(step - 1, 0)

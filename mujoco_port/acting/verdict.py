@@ -7,7 +7,8 @@ only: the one that was ordered.
     TOUCH      10 s on end: on target, the hand's little-finger side on the target, S1 at rest
     MOVE       on target and the hand's little-finger side on the target, from a touch on, until the target's
                bearing has changed by 34.4 degrees; it stands upright all the while
-    IGNORE     10 s on end: the target neither within 15 degrees of S1 nor touched
+    IGNORE     10 s on end: the target neither in view nor touched; in view is what lies within 15 degrees of
+               S1, seen from J1, or from S1's end where the camera is there
 
 As soon as the robot, or the target, touches another object the trial has failed.
 """
@@ -21,7 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import ActionWord, Readings
-from arm2d.constants import DT, GOOD_STEPS_FOR_SUCCESS, VIEW_HALF_WIDTH
+from arm2d.constants import DT, GOOD_STEPS_FOR_SUCCESS
+from arm2d.view import in_view
 from mujoco_port.acting.contacts import RIGHT_SIDE
 from mujoco_port.acting.rollout import PhysicalRecord
 
@@ -114,4 +116,5 @@ def _is_good(record: PhysicalRecord, readings: Readings) -> NDArray[np.bool_]:
         return (off < readings.target_cone) & right & record.still
     if action is ActionWord.MOVE:
         return (off < readings.target_cone) & right & (record.upright[:, target] > UPRIGHT)
-    return (off > VIEW_HALF_WIDTH) & ~touched
+    seen = in_view(record.alpha, record.objects[:, target, :2] / record.scale, readings)
+    return ~seen & ~touched

@@ -120,7 +120,7 @@ def _carry_out(
         return lab.closed_loop(genotype, trial, record.readings)
     from mujoco_port.acting.camera import CameraEyes
 
-    with CameraEyes(lab.body) as eyes:
+    with CameraEyes(lab.body, record.readings) as eyes:
         return lab.closed_loop(genotype, trial, record.readings, eyes)
 
 

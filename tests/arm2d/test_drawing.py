@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from matplotlib.patches import Wedge
 
-from arm2d import draw_state, record_trial, render_video
+from arm2d import Readings, draw_state, record_trial, render_video
 from arm2d.drawing import OBJECT_COLOURS, Scene, arm_points, state_at
 from arm2d.video import Panel
 from tests.arm2d.controllers import one_trial, steady_controller
@@ -41,6 +42,22 @@ def test_arm_is_drawn_with_its_lengths_and_angles():
     joint, tip = arm_points(90.0, 90.0)
     np.testing.assert_allclose(joint, [0, 100], atol=1e-12)
     np.testing.assert_allclose(tip, [-50, 100], atol=1e-12)
+
+
+@pytest.mark.parametrize(("origin", "reach"), [("J1", 172.0), ("end", 72.0)])
+def test_field_of_view_starts_where_the_camera_sits_and_ends_as_far_ahead(origin, reach):
+    readings = Readings(camera_origin=origin)
+    turning = one_trial(2, 1, 60.0, {1: (150.0, 150.0)})
+    axes = Figure().add_subplot()
+    scene = Scene(axes, record_trial(steady_controller(1, 0, readings), turning, readings))
+    scene.show(10)
+    wedges = [each for each in scene.moving if isinstance(each, Wedge)]
+    eye = arm_points(60.0 + 10 * 2.9, 90.0)[0] if origin == "end" else (0.0, 0.0)
+    for wedge in wedges:
+        np.testing.assert_allclose(wedge.center, eye, atol=1e-9)
+        assert wedge.r == pytest.approx(reach)
+    edges = [(wedge.theta1 - 89.0, wedge.theta2 - 89.0) for wedge in wedges]
+    np.testing.assert_allclose(edges, [(-15, -5), (-5, 5), (5, 15)])
 
 
 def test_states_between_two_steps_lie_between_them(record):

@@ -22,15 +22,28 @@ from arm2d.readings import choices
 from arm2d.reference import run_trial
 
 # Every alternative of the ledger that changes a trial, one at a time.
+OF_EVOLUTION_ONLY = {"parent_scaling", "ties", "starts_shared"}
 ALTERNATIVES = [
     {},
-    *({name: word} for name, words in choices().items() for word in words[1:]),
-    *({"object_radius": radius} for radius in (3.0, 8.0, 10.0)),
+    *(
+        {name: word}
+        for name, words in choices().items()
+        for word in words[1:]
+        if name not in OF_EVOLUTION_ONLY
+    ),
+    *({"object_radius": radius} for radius in (3.0, 8.0, 10.0, 11.8)),
     *({"sector_half_width": width} for width in (5.0, 8.0)),
     {"sector_centres": (45.0, 90.0, 135.0), "sector_half_width": 3.0},
     *({"tau_exponent_max": exponent} for exponent in (1.0, 0.0)),
     {"object_vision": "any_part", "object_radius": 10.0, "bound_vision": "near", "start_areas": "bounds"},
     {"turn": "radians", "run_counting": "cumulative", "f3_time": "best", "success": "f1_f2_f3"},
+]
+# A camera at the end of S1 has code of its own in the kernel.
+SEEN_FROM_THE_END = [
+    {},
+    {"object_vision": "any_part"},
+    {"object_vision": "any_part", "object_radius": 11.8},
+    {"f3_time": "best", "bound_vision": "near", "object_radius": 10.0, "start_areas": "bounds"},
 ]
 TRIALS_PER_ALTERNATIVE = -(-20_000 // len(ALTERNATIVES))
 
@@ -74,30 +87,43 @@ def test_kernel_and_reference_agree_on_twenty_thousand_trials_of_all_readings(al
         assert not list(disagreements(genotypes, trials, readings))
 
 
-def test_kernel_and_reference_agree_where_words_change_in_mid_trial(evolved):
+@pytest.mark.slow
+@pytest.mark.parametrize("alternative", SEEN_FROM_THE_END, ids=str)
+def test_kernel_and_reference_agree_on_two_thousand_trials_seen_from_the_end_of_s1(alternative, evolved):
+    readings = Readings(camera_origin="end").with_values(alternative)
+    rng = np.random.default_rng([11, SEEN_FROM_THE_END.index(alternative)])
+    for condition in Condition:
+        trials = draw_trials(condition.instructions, 2, readings, rng)
+        assert len(trials) == 36
+        assert not list(disagreements(genotypes_of(evolved, 28, rng), trials, readings))
+
+
+@pytest.mark.parametrize("readings", [Readings(), Readings(camera_origin="end")], ids=["J1", "end"])
+def test_kernel_and_reference_agree_where_words_change_in_mid_trial(readings, evolved):
     rng = np.random.default_rng(8)
-    drawn = draw_trials(Condition.WITH_INDICATE.instructions, 4, Readings(), rng)
+    drawn = draw_trials(Condition.WITH_INDICATE.instructions, 4, readings, rng)
     n = len(drawn)
     changes = LabelChanges(
         rng.integers(0, 3, n), drawn.objects, drawn.actions, rng.integers(0, 3, n), rng.integers(0, 10, n)
     )
     trials = Trials(drawn.actions, drawn.objects, drawn.alpha, drawn.discs, changes)
     genotypes = genotypes_of(evolved, 8, rng)
-    assert not list(disagreements(genotypes, trials, Readings()))
-    unchanged = run_trials(genotypes, drawn, Readings())
-    assert not np.array_equal(run_trials(genotypes, trials, Readings()).fitness, unchanged.fitness)
+    assert not list(disagreements(genotypes, trials, readings))
+    unchanged = run_trials(genotypes, drawn, readings)
+    assert not np.array_equal(run_trials(genotypes, trials, readings).fitness, unchanged.fitness)
 
 
-def test_kernel_and_reference_agree_where_discs_start_at_or_in_s2(evolved):
+@pytest.mark.parametrize("readings", [Readings(), Readings(camera_origin="end")], ids=["J1", "end"])
+def test_kernel_and_reference_agree_where_discs_start_at_or_in_s2(readings, evolved):
     rng = np.random.default_rng(10)
-    drawn = draw_trials(Condition.WITH_INDICATE.instructions, 2, Readings(), rng)
+    drawn = draw_trials(Condition.WITH_INDICATE.instructions, 2, readings, rng)
     angles, distances = rng.uniform(50, 150, (2, len(drawn), 3))
     distances = 100.0 + 0.2 * (distances - 50)
     discs = distances[..., np.newaxis] * np.stack(
         [np.cos(np.radians(angles)), np.sin(np.radians(angles))], -1
     )
     trials = Trials(drawn.actions, drawn.objects, drawn.alpha, discs)
-    assert not list(disagreements(genotypes_of(evolved, 12, rng), trials, Readings()))
+    assert not list(disagreements(genotypes_of(evolved, 12, rng), trials, readings))
 
 
 @pytest.fixture(scope="module")

@@ -13,6 +13,7 @@ from arm2d import (
 from arm2d.arithmetic import sigmoid
 from evolution.agents.behaviour import draw_behaviour_trials, record_behaviour
 from evolution.agents.events import events_of, shares_by_event
+from evolution.agents.lineage_scores import offsets
 from evolution.cli import main
 from evolution.figures.behaviour import trajectories_figure
 from evolution.figures.neurons import activity_figure, variance_figure
@@ -46,6 +47,22 @@ def test_trials_stand_in_the_order_of_instructions_and_areas(behaviour):
     touch_red = behaviour.of(Instruction(ActionWord.TOUCH, ObjectWord.RED))
     assert set(behaviour.actions[touch_red]) == {1}
     assert set(behaviour.objects[touch_red]) == {2}
+
+
+def test_first_sight_is_that_of_a_camera_at_the_end_of_s1(evolved_agent):
+    end = Readings(camera_origin="end")
+    behaviour = record_behaviour(evolved_agent, INDICATE, end, per_area=1)
+    trials, n_seen, n_later = draw_behaviour_trials(INDICATE, end, 1, 0), 0, 0
+    for trial, first in enumerate(behaviour.first_sight):
+        record = record_trial(evolved_agent, trials[trial], end)
+        target = record.instruction.object
+        seen = np.flatnonzero(record.inputs[:, [2 + target, 5 + target, 8 + target]].any(axis=1))
+        # White is in the way at the bounds only.
+        if len(seen) and np.abs(record.alpha[: seen[0] + 1] - 90.0).max() < 120.0:
+            assert first == seen[0]
+            n_seen += 1
+            n_later += offsets(record.alpha, record.discs[:, target])[first - 1] <= 15.0
+    assert n_later == n_seen > 5  # a camera in J1 would have seen the target before
 
 
 def test_events_are_where_the_record_has_them(behaviour, evolved_agent):

@@ -158,6 +158,7 @@ def test_each_instruction_of_the_best_agents_can_be_played(text, results):
     for world, condition in zip(recordings, Condition, strict=True):
         assert list(world["trials"]) == [str(each) for each in condition.instructions]
         assert all(set(areas) == {"right", "left"} for areas in world["trials"].values())
+        assert world["camera"] == 0.0  # in J1
 
 
 def test_a_played_trial_is_the_recorded_one(evolved_agent):

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from arm2d import Instruction, Readings, draw_trials, record_trial
+from arm2d import Instruction, Networks, Readings, Trials, draw_trials, encode, record_trial
+from arm2d.reference import sense
+from arm2d.view import camera_offsets
 from evolution.runs.sources import find_source
 from mujoco_port.acting.camera import CameraEyes
 from mujoco_port.acting.closed_loop import felt
@@ -45,7 +47,7 @@ def test_touch_is_felt_on_the_side_where_it_was_within_the_last_moments():
 
 def test_geometric_eyes_see_objects_where_the_2d_world_has_them(standing):
     body, discs = standing
-    np.testing.assert_allclose(geometric_eyes(body)(0.0), discs, atol=1e-9)
+    np.testing.assert_allclose(geometric_eyes(body)(0.0).by_camera, discs, atol=1e-9)
 
 
 def test_camera_sees_the_same_bearings_as_geometry_and_nothing_outside_its_field(standing):
@@ -54,11 +56,51 @@ def test_camera_sees_the_same_bearings_as_geometry_and_nothing_outside_its_field
         for target, disc in enumerate(discs):
             true = bearing(disc)
             for offset in (-14.0, -5.0, 0.0, 9.0, 14.0):
-                seen = eyes(true + offset)
+                seen = eyes(true + offset).by_camera
                 # A pixel in the middle of the picture is 0.18 degrees wide.
                 assert bearing(seen[target]) == pytest.approx(true, abs=0.2)
                 hidden = [k for k in range(3) if abs(bearing(discs[k]) - true - offset) > 60.0]
                 assert all(seen[k][1] < -100.0 for k in hidden)
+
+
+def test_camera_at_the_end_of_s1_sees_bearings_from_there_and_the_robot_still_looks_from_j1(standing):
+    body, discs = standing
+    end = Readings(camera_origin="end")
+    with CameraEyes(body, end) as eyes, CameraEyes(body) as others:
+        for target, disc in enumerate(discs):
+            for offset in (-9.0, -3.0, 0.0, 1.0, 5.0):
+                alpha = bearing(disc) + offset
+                sight = eyes(alpha)
+                true = camera_offsets(np.array(alpha), disc, end)
+                # In the middle of the picture a pixel is 0.18 degrees wide.
+                assert camera_offsets(np.array(alpha), sight.by_camera[target], end) == pytest.approx(
+                    true, abs=0.2
+                )
+                np.testing.assert_array_equal(sight.from_j1, others(alpha).from_j1)
+
+
+def test_what_the_camera_at_the_end_of_s1_does_not_see_is_in_no_sector(standing):
+    body, discs = standing
+    end, heard = Readings(camera_origin="end"), Instruction.parse("touch red")
+    with CameraEyes(body, end) as eyes:
+        for alpha in range(-29, 210):
+            true = sense(alpha, 90.0, [tuple(disc) for disc in discs], [None] * 3, heard, end)
+            seen = sense(alpha, 90.0, eyes(alpha).by_camera.tolist(), [None] * 3, heard, end)
+            edges = np.abs(np.abs(camera_offsets(np.array(float(alpha)), discs, end)) - [[5.0], [15.0]]).min()
+            assert seen == true or edges < 0.3
+
+
+def test_agent_in_the_robot_senses_what_its_camera_at_the_end_of_s1_sees(lab, champion_records):
+    """With S1 8 degrees beside an object, a camera in J1 sees it, and one at the end of S1 does not."""
+    discs = champion_records[0].discs[0]
+    start = np.array([bearing(discs[2]) - 8.0])
+    trial = Trials(np.array([1]), np.array([2]), start, discs[np.newaxis])
+    genotype = turns_when_it_sees_red()
+    with CameraEyes(lab.body, Readings(camera_origin="end")) as eyes:
+        for origin, sights, turns in (("J1", [None], True), ("end", [None, eyes], False)):
+            for sight in sights:
+                physical, _ = lab.closed_loop(genotype, trial, Readings(camera_origin=origin), sight)
+                assert (np.ptp(physical.orders[:40, 0]) > 0.0) == turns
 
 
 def test_agents_order_takes_effect_one_control_step_after_what_it_answers_to(lab, evolved_agent):
@@ -86,6 +128,24 @@ def test_same_trial_is_repeated_to_the_last_bit(lab, evolved_agent):
     first, second = (lab.closed_loop(evolved_agent, start_of(record), READINGS)[0] for _ in range(2))
     np.testing.assert_array_equal(first.objects, second.objects)
     np.testing.assert_array_equal(first.contact, second.contact)
+
+
+def turns_when_it_sees_red():
+    """A genotype [84] whose S1 turns left as long as a red sensor of the camera is on, and S2 never."""
+    sensory, motor = np.zeros((1, 18, 3)), np.zeros((1, 3, 4))
+    sensory[0, [4, 7, 10], 0] = 8.0
+    motor[0, 0, 0] = 10.0
+    networks = Networks(
+        sensory_weights=sensory,
+        recurrent_weights=np.zeros((1, 3, 3)),
+        motor_weights=motor,
+        decay_constants=np.full((1, 3), 0.1),
+        input_bias=np.full(1, -4.0),
+        inter_biases=np.full((1, 3), -5.0),
+        motor_bias=np.full(1, -5.0),
+        gain=np.full(1, 13.0),
+    )
+    return encode(networks, READINGS)[0]
 
 
 def _trial(words, genotype):

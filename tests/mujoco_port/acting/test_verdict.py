@@ -124,6 +124,15 @@ def test_ignore_is_ten_seconds_with_the_target_neither_in_view_nor_touched():
     assert not judge(trial("ignore green", alpha=away, contact=touching(GREEN, LEFT_SIDE)), READINGS).success
 
 
+def test_ignore_takes_in_view_as_the_camera_at_the_end_of_s1_does():
+    """Objects stand 150 cm from J1: one 8 degrees off S1 is 23 degrees off as seen from its end, 4 are 12."""
+    end = Readings(camera_origin="end")
+    for off, from_j1, from_end in ((16.0, True, True), (8.0, False, True), (4.0, False, False)):
+        record = trial("ignore green", alpha=np.full(6000, 90.0 - off))
+        assert judge(record, READINGS).success == from_j1
+        assert judge(record, end).success == from_end
+
+
 def test_only_breaks_between_good_moments_are_closed():
     good = np.array([0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 0], bool)
     np.testing.assert_array_equal(closed(good, 2), np.array([0, 1, 1, 1, 1, 1, 0, 0, 0, 1, 0], bool))
