@@ -55,7 +55,8 @@ class SlurmFlags:
     """Lines of the job script before the worker, such as 'module load python'."""
 
     tls: bool | None = None
-    """Encrypt, and let nobody in but this command and its workers. By default yes."""
+    """Encrypt, and let nobody in but this command and its workers. By default yes; without, whoever reaches
+    the scheduler can run programs as you: with the interface lo every user of this machine."""
 
     def options(self) -> SlurmOptions:
         """The options asked for: defaults, then the file, then flags."""
@@ -71,7 +72,8 @@ class ClusterFlags:
     """Where runs are done: here, if neither --scheduler nor --slurm is given."""
 
     scheduler: str | None = None
-    """Address of a Dask scheduler, such as tcp://10.0.0.1:8786; its workers do the runs."""
+    """Address of a Dask scheduler, such as tls://10.0.0.1:8786; its workers do the runs. Whoever reaches one
+    at tcp:// can run programs as you."""
 
     slurm: bool = False
     """Let SLURM start workers, and do the runs there."""

@@ -12,13 +12,14 @@ from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import Any, Final
 
+import dask.config
 import psutil
 from dask.utils import parse_bytes
 from dask_jobqueue.slurm import SLURMCluster, SLURMJob
 from distributed import Client
-from distributed.security import Security
 
 from evolution.experiments.cluster.connection import Connection
+from evolution.experiments.cluster.keys import key_folder, own_keys
 from evolution.runs.storage import make_folder
 
 # What a run holds at most, and a worker that watches over runs [MB], with room to spare; see docs/cluster.md.
@@ -27,6 +28,9 @@ MEMORY_OF_A_WORKER: Final = 500
 LOOPBACK: Final = "lo"
 DEATH_TIMEOUT: Final = 300  # [s] a worker looks for a scheduler
 LARGEST_FILE: Final = 1_000_000  # [bytes]
+# Every local user could ask these processes over HTTP what they do, TLS or not: they answer nothing.
+NO_PAGES: Final = {"distributed.scheduler.http.routes": []}
+NO_PAGES_OF_WORKERS: Final = "export DASK_DISTRIBUTED__WORKER__HTTP__ROUTES='[]'"
 WALLTIME: Final = re.compile(r"(\d+-)?\d+(:\d+){0,2}")
 DIRECTIVE: Final = re.compile(r"-|[a-z][a-z-]+(=|$)")
 NAME: Final = re.compile(r"[\w.,@%+-]+")
@@ -66,7 +70,8 @@ class SlurmOptions:
     """Lines of the job script before the worker, such as 'module load python'."""
 
     tls: bool = True
-    """Encrypt, and let nobody in but this command and its workers, by keys made for this one time."""
+    """Encrypt, and let nobody in but this command and its workers, by keys made for this one time. Without,
+    whoever reaches the scheduler can run programs as you: with lo every user of this machine."""
 
     def __post_init__(self) -> None:
         for name, most in (("cores", MOST_CORES), ("jobs", MOST_JOBS)):
@@ -169,14 +174,17 @@ def slurm_cluster(options: SlurmOptions, folder: Path) -> Iterator[Connection]:
     logs = folder.resolve() / "logs" / "slurm"
     make_folder(logs)
     cluster: Any
-    with SLURMCluster(
-        **_job_options(options),
-        log_directory=str(logs),
-        shared_temp_directory=str(logs),
-        security=_own_keys() if options.tls else None,
-        # The scheduler's pages about itself: for this machine only, whatever the interface.
-        scheduler_options={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
-    ) as cluster:
+    with (
+        key_folder(logs) as keys,
+        dask.config.set(NO_PAGES),
+        SLURMCluster(
+            **_job_options(options),
+            log_directory=str(logs),
+            security=own_keys(keys) if options.tls else None,
+            # The scheduler's pages about itself: for this machine only, whatever the interface.
+            scheduler_options={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
+        ) as cluster,
+    ):
         cluster.adapt(minimum_jobs=0, maximum_jobs=options.jobs, interval="10s", wait_count=6)
         with Connection(
             lambda seconds: Client(cluster, timeout=seconds, set_as_default=False),
@@ -194,15 +202,6 @@ def _loopback_note(options: SlurmOptions, logs: Path) -> str:
     return note
 
 
-def _own_keys() -> Security:
-    try:
-        return Security.temporary()
-    except ImportError:
-        raise ValueError(
-            "keys for TLS need the package cryptography; install it with: pip install 'wordarm[cluster]'"
-        ) from None
-
-
 def _job_options(options: SlurmOptions) -> dict[str, Any]:
     """What dask-jobqueue calls the options."""
     return {
@@ -215,7 +214,7 @@ def _job_options(options: SlurmOptions) -> dict[str, Any]:
         "account": options.account,
         "interface": options.interface,
         "job_extra_directives": [x if x.startswith("-") else f"--{x}" for x in options.directives],
-        "job_script_prologue": list(options.prologue),
+        "job_script_prologue": [NO_PAGES_OF_WORKERS, *options.prologue],
         "job_name": "wordarm",
         "python": sys.executable,
         "death_timeout": DEATH_TIMEOUT,
