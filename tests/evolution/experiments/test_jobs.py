@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from evolution.experiments import workers
+from evolution.experiments import warm_workers, workers
 from evolution.experiments.jobs import MOST_RESTARTS, Watcher, finished_files, run_jobs
 from evolution.experiments.workers import Job
 from evolution.runs.folder import LOCK
@@ -127,3 +127,12 @@ def test_a_run_whose_worker_is_killed_equals_an_undisturbed_one(finished_run, tm
     assert run_jobs([[job]], at_once=1, watcher=Watcher(on_tick=kill_twice)) == ()
     assert killed
     assert contents(path) == contents(finished_run)
+
+
+def test_the_fork_server_is_reached_by_no_path(tmp_path):
+    """A socket with a name could be spoken to by others."""
+    server = warm_workers._Server(tmp_path / "workers.log")
+    try:
+        assert server._socket.getsockname() == server._socket.getpeername() == ""
+    finally:
+        server.close()
