@@ -30,6 +30,8 @@ FILE: Final = os.O_NONBLOCK | os.O_CLOEXEC
 MOST_LINKS: Final = 40
 CHUNK: Final = 2**18  # [bytes]
 ATTEMPTS: Final = 5
+NOT_FOLLOWED: Final = "is a symbolic link, which is not followed; remove it, or choose another name"
+NO_FILE: Final = "is no file; remove it, or choose another name"
 TEMPORARY: Final = re.compile(r"\.(.+?)(\.[0-9a-f]{16})?\.tmp")
 
 
@@ -96,19 +98,24 @@ def write_whole(path: Path, data: bytes) -> None:
         _remove_leftovers(path.name, folder)
 
 
-def handle_to_append(path: Path, *, read: bool = False) -> int:
-    """A handle of a file, made if need be, at whose end is written; if asked for, it can be read too.
+def handle_to_append(path: Path) -> int:
+    """A handle of a file, made if need be, at whose end is written.
 
     Raises:
         LinkError: If it is a link or no file.
         OSError: If it cannot be opened.
     """
-    return _handle(path, os.O_APPEND | os.O_CREAT | (os.O_RDWR if read else os.O_WRONLY))
+    return _handle(path, os.O_APPEND | os.O_CREAT | os.O_WRONLY)
 
 
 def handle_to_overwrite(path: Path) -> int:
     """A handle of a file, made or emptied; errors as `handle_to_append`."""
     return _handle(path, os.O_TRUNC | os.O_CREAT | os.O_WRONLY)
+
+
+def handle_to_rewrite(path: Path) -> int:
+    """A handle of a file, made if need be, for reading and writing; errors as `handle_to_append`."""
+    return _handle(path, os.O_CREAT | os.O_RDWR)
 
 
 def handle_of_new(path: Path) -> int:
@@ -230,13 +237,13 @@ def _handle_in(folder: int, name: str, flags: int) -> int:
         handle = os.open(name, flags | FILE | os.O_NOFOLLOW, 0o666, dir_fd=folder)
     except OSError as error:
         if error.errno == errno.ELOOP:
-            raise LinkError("is a symbolic link; remove it, or choose another file") from None
+            raise LinkError(NOT_FOLLOWED) from None
         if error.errno == errno.ENXIO:
-            raise LinkError("is no regular file; remove it, or choose another file") from None
+            raise LinkError(NO_FILE) from None
         raise
     if not stat.S_ISREG(os.fstat(handle).st_mode):
         os.close(handle)
-        raise LinkError("is no regular file; remove it, or choose another file")
+        raise LinkError(NO_FILE)
     return handle
 
 

@@ -18,11 +18,14 @@ LONGEST_SENTENCE: Final = 1000
 def answer(run: Callable[[], int]) -> int:
     """The exit code of what a command does; what is wrong with its input is printed in one sentence."""
     try:
-        return run()
+        return _run_and_print(run)
     except BrokenPipeError:
-        # Whoever read our output has seen enough; Python must not complain of it when it ends.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE
+        return _nobody_reads()
+    except SystemExit as end:
+        # Rich ends the program by itself, with 1, when nobody reads what it prints.
+        if isinstance(end.__context__, BrokenPipeError):
+            return _nobody_reads()
+        raise
     except (ValueError, OSError) as error:
         print(f"{SENTENCE_PREFIX}{_sentence(error)}", file=sys.stderr)
         return BAD_INPUT
@@ -31,6 +34,21 @@ def answer(run: Callable[[], int]) -> int:
         return BAD_INPUT
     except KeyboardInterrupt:
         return INTERRUPTED
+
+
+def _run_and_print(run: Callable[[], int]) -> int:
+    """Run, and see to it that all that was said is written."""
+    try:
+        return run()
+    finally:
+        if sys.stdout:
+            sys.stdout.flush()
+
+
+def _nobody_reads() -> int:
+    """Whoever read our output has seen enough; Python must not complain of it when it ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return BROKEN_PIPE
 
 
 def _sentence(error: ValueError | OSError) -> str:

@@ -22,23 +22,25 @@ class PostEvaluate:
         """Post-evaluate every finished run."""
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-        from evolution.agents.postevaluation import post_evaluate
+        from evolution.agents.postevaluation import late_spans, post_evaluate
         from evolution.agents.solving import solved_trials
         from evolution.agents.transition_test import run_transition_test
-        from evolution.experiments.experiment import open_experiment, state_of
+        from evolution.experiments.experiment import open_experiment
+        from evolution.experiments.standing import standing_of
         from evolution.runs.lock import locked
 
         columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
         experiment, damaged = open_experiment(self.path), []
         with Progress(*columns) as bars:
             for run in experiment.all_runs:
-                state = state_of(run)
-                name = f"{run.config.condition}, seed {run.config.seed}"
-                if state.damage or not state.finished:
-                    bars.console.print(f"{name}: left out, {state.damage or 'not finished'}")
+                standing = standing_of(run.path, run.config)
+                name = standing.name
+                if standing.damage or not standing.finished:
+                    bars.console.print(f"{name}: left out, {standing.damage or 'not finished'}")
                     continue
-                first = bars.add_task(f"{name}, instructions", total=state.to_evaluate)
-                second = bars.add_task(f"{name}, transitions", total=state.to_evaluate)
+                parts = len(late_spans(run))
+                first = bars.add_task(f"{name}, instructions", total=parts)
+                second = bars.add_task(f"{name}, transitions", total=parts)
                 try:
                     with locked(run.path):
                         post_evaluate(run, lambda done, _, bar=first: bars.update(bar, completed=done))

@@ -82,7 +82,7 @@ class Reproduce:
         plan, began, console = self.cluster.placed(self.plan), time.monotonic(), Console()
         plan.check()
         if self.dry_run:
-            return self.cluster.show_script()
+            return self.cluster.show_script(plan.folder)
         with self.cluster.opened(plan.folder, console) as elsewhere:
             make_folder(plan.folder)
             with locked(plan.folder):
@@ -120,17 +120,17 @@ def _analyse(folder: Path) -> Results:
 def _look_at_agents(results: Results, folder: Path, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
     """Trace and observe the best agent of each condition, and observe classes; the jobs given up."""
     from evolution.commands.reproduction import agent_chains, class_chains
-    from evolution.experiments.jobs import Watcher, run_jobs
+    from evolution.experiments.jobs import Overseer, run_jobs
     from evolution.experiments.stage_times import note_time
 
     if chains := agent_chains(results, folder) + class_chains(results, folder):
         print("tracing the best agents' ancestors, and what they and their classes do", flush=True)
-    watcher = Watcher(
+    overseer = Overseer(
         on_end=lambda ended: note_time(folder, ended),
         on_note=lambda note: print(note, flush=True),
         wants_stop=lambda: stop.requested,
     )
-    return run_jobs(chains, at_once, watcher)
+    return run_jobs(chains, at_once, overseer)
 
 
 def _report(results: Results, folder: Path) -> None:

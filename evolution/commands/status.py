@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Final
@@ -9,7 +10,6 @@ from typing import Annotated, Final
 from tyro.conf import Positional, arg
 
 MOST_ROWS: Final = 60
-PIPE_WIDTH: Final = 200
 
 
 @dataclass(frozen=True)
@@ -27,16 +27,20 @@ class Status:
         from rich.console import Console
 
         from evolution.experiments.live_table import run_table
+        from evolution.experiments.plan_file import experiment_standings
         from evolution.experiments.standing import pace_of
-        from evolution.experiments.status import experiment_standings
         from evolution.runs.folder import RunFolder
 
-        standings = experiment_standings(self.path)
+        standings, unreadable = experiment_standings(self.path)
         at_work = sum(each.at_work for each in standings.values())
         started = [RunFolder(path, each.config) for path, each in standings.items() if each.generations]
         most_rows = None if self.every_run else MOST_ROWS
-        table = run_table(list(standings.values()), pace_of(started), max(at_work, 1), most_rows)
-        console = Console()
         # A pipe has no width: nothing is to be cut there.
-        console.print(table, width=None if console.is_terminal else PIPE_WIDTH)
+        console = Console(highlight=False, markup=False, soft_wrap=not sys.stdout.isatty())
+        width = None if console.soft_wrap else console.width
+        console.print(
+            run_table(list(standings.values()), pace_of(started), max(at_work, 1), most_rows, width)
+        )
+        for sentence in unreadable:
+            console.print(sentence, style="red")
         return 0

@@ -10,9 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from arm2d import Condition, Readings
-from evolution.agents.postevaluation import progress
 from evolution.runs.folder import CONFIG, RunFolder
-from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 
 
@@ -55,40 +53,11 @@ class Experiment:
         return self.all_runs[0].config.readings
 
 
-@dataclass(frozen=True)
-class RunState:
-    """How far a run has come.
-
-    Attributes:
-        run: The run.
-        generations: How many are in finished parts.
-        evaluated: Parts post-evaluated, of `to_evaluate`.
-        to_evaluate: Parts to be post-evaluated.
-        damage: What is wrong with it, or nothing.
-    """
-
-    run: RunFolder
-    generations: int
-    evaluated: int
-    to_evaluate: int
-    damage: str = ""
-
-    @property
-    def finished(self) -> bool:
-        """Whether evolution is over."""
-        return self.generations >= self.run.config.settings.generations
-
-    @property
-    def complete(self) -> bool:
-        """Whether it can be analysed whole."""
-        return self.finished and self.evaluated == self.to_evaluate and not self.damage
-
-
 def open_experiment(path: Path) -> Experiment:
     """The experiment in a folder; a single run's folder is an experiment of one.
 
     Raises:
-        ValueError: If there is no readable run in it, or its runs took place in different worlds.
+        ValueError: If there is no readable run in it, or its runs took place under different readings.
     """
     folders = (
         [path] if (path / CONFIG).is_file() else sorted(each.parent for each in path.glob(f"*/*/{CONFIG}"))
@@ -105,10 +74,10 @@ def open_experiment(path: Path) -> Experiment:
         )
     opened, unreadable = _opened(folders)
     runs, copies = _without_copies(opened)
-    worlds = {run.config.readings for run in runs}
-    if len(worlds) > 1:
+    readings = {run.config.readings for run in runs}
+    if len(readings) > 1:
         raise ValueError(
-            f"the runs in {path} took place under {len(worlds)} different readings; analyse them apart"
+            f"the runs in {path} took place under {len(readings)} different readings; analyse them apart"
         )
     by_condition = {c: tuple(run for run in runs if run.config.condition is c) for c in Condition}
     shown = {c: runs for c, runs in by_condition.items() if runs}
@@ -152,13 +121,3 @@ def _without_copies(runs: Iterable[RunFolder]) -> tuple[list[RunFolder], list[st
 def _has_its_own_name(run: RunFolder) -> bool:
     """Whether a run lies where it was made, rather than where it was copied."""
     return run.path.name == f"seed-{run.config.seed:04d}" and run.path.parent.name == run.config.condition
-
-
-def state_of(run: RunFolder) -> RunState:
-    """How far a run has come, damage included."""
-    evaluated, to_evaluate = progress(run)
-    try:
-        spans = run.finished_spans()
-        return RunState(run, spans[-1].stop if spans else 0, evaluated, to_evaluate)
-    except DamagedFileError as error:
-        return RunState(run, 0, evaluated, to_evaluate, str(error))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from evolution.agents.postevaluation import PostEvaluation, read_post_evaluation
 from evolution.agents.solving import solved_trials
 from evolution.agents.transition_test import TransitionTest, read_transition_test
-from evolution.experiments.experiment import state_of
+from evolution.experiments.standing import standing_of
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History
 from evolution.runs.recorded import recorded_histories
@@ -65,12 +65,12 @@ def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[s
 
 def unfinished(run: RunFolder) -> str:
     """What a run lacks to be analysed and how to go on, or nothing."""
-    state = state_of(run)
-    if state.damage:
-        return state.damage
-    if not state.finished:
-        return f"{state.generations} generations so far; go on with: {_evolve_command(run)}"
-    if state.evaluated < state.to_evaluate:
+    standing = standing_of(run.path, run.config)
+    if standing.damage:
+        return standing.damage
+    if not standing.finished:
+        return f"{standing.generations} generations so far; go on with: {_evolve_command(run)}"
+    if standing.tested < standing.to_test:
         return f"not post-evaluated; go on with: wordarm postevaluate {quote(str(run.path))}"
     return ""
 

@@ -10,10 +10,14 @@ import io
 import math
 import zipfile
 import zlib
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+
+from arm2d.files import NoFileError, read_file
 
 # Far above any file of this project; keeps a mistaken or malicious file from filling the memory.
 LARGEST_CONTENT: Final = 64 * 2**20
@@ -35,6 +39,23 @@ class UnreadableError(ValueError):
     """Bytes that are no arrays, or more than anyone wants."""
 
 
+def read_genotype_file(path: Path) -> Mapping[str, NDArray]:
+    """The named arrays of an .npz, or the only one of an .npy as "genotypes"; not yet held against anything.
+
+    Raises:
+        ValueError: If it is neither, or too large.
+        OSError: If it cannot be read.
+    """
+    refusal = f"{path} is not a genotype file: give an .npz with an array genotypes [P, 84], or an .npy"
+    try:
+        data = read_file(path, LARGEST_CONTENT)
+        if zipfile.is_zipfile(io.BytesIO(data)):
+            return unpack_archive(data)
+        return {"genotypes": unpack_array(data)}
+    except (NoFileError, UnreadableError) as error:
+        raise ValueError(f"{refusal} ({error})") from None
+
+
 def unpack_archive(data: bytes) -> dict[str, NDArray]:
     """The named arrays of an .npz.
 
@@ -47,8 +68,9 @@ def unpack_archive(data: bytes) -> dict[str, NDArray]:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             members = archive.infolist()
             _check_members(members)
-            contents = {each.filename.removesuffix(ENDING): _content(archive, each) for each in members}
-            return {name: unpack_array(content) for name, content in contents.items()}
+            return {
+                each.filename.removesuffix(ENDING): unpack_array(_content(archive, each)) for each in members
+            }
     except UnreadableError:
         raise
     # What a broken or foreign archive brings about in the reader, encryption included.
@@ -72,9 +94,10 @@ def unpack_array(data: bytes) -> NDArray:
     """
     stream = io.BytesIO(data)
     shape, by_columns, dtype = _header(stream)
-    # Of items without a byte any number would fit.
-    if dtype.hasobject or dtype.kind not in KINDS or not dtype.itemsize:
+    if dtype.hasobject or dtype.kind not in KINDS:
         raise UnreadableError(f"it holds {dtype}, not numbers or text")
+    if not dtype.itemsize:
+        raise UnreadableError("it holds items of 0 bytes, of which any number has no size")
     room = len(data) - stream.tell()
     if any(n < 0 for n in shape) or math.prod(shape) * dtype.itemsize != room:
         raise UnreadableError(f"its header tells of {_shown(shape)} of {dtype}, but {room} bytes follow")

@@ -7,6 +7,7 @@ again. Ages are told by the file server's clock alone.
     the lease is another machine's, touched lately     its holder is taken to be alive: in use
     the same, not touched for LAPSE                     its machine is taken to be dead: taken over
     the lease is of this machine, whose lock we hold    its process is dead: taken over
+    the lease is dated in the future                    dated anew, and judged by whether it is touched again
 
 A holder that cannot touch its lease, or finds it taken over, ends itself at once and writes no more.
 """
@@ -35,6 +36,8 @@ RENEWAL: Final = 15.0  # [s] between two touches
 LAPSE: Final = 90.0  # [s] after which others may take over
 # Without a touch for so long [s], a holder ends itself: well before others may take over.
 GIVE_UP: Final = LAPSE - 2 * RENEWAL
+# A date so far ahead of the server's clock [s] is that of another clock.
+TOLERANCE: Final = 1.0
 # Whoever takes over looks again after this time [s], in case another did so in the same moment.
 SETTLE: Final = 2.0
 LONGEST: Final = 10_000  # [bytes]
@@ -100,7 +103,9 @@ def held_elsewhere(folder: Path) -> bool:
         holder, touched = _read(folder / LEASE)
     except OSError:  # no lease of ours
         return False
-    return holder is not None and holder.kernel != this_kernel() and time.time() - touched < LAPSE
+    # Nothing being written, the server's clock is unknown; a date far from ours on either side is no sign
+    # of life.
+    return holder is not None and holder.kernel != this_kernel() and abs(time.time() - touched) < LAPSE
 
 
 @cache
@@ -118,7 +123,12 @@ def _claim(path: Path, mine: Holder, lock_held: bool) -> None:
         return
     other, touched = _read(path)
     dead_here = lock_held and other is not None and other.kernel == mine.kernel
-    if not dead_here and _server_time(path.parent) - touched < LAPSE:
+    age = _server_time(path.parent) - touched
+    if age < -TOLERANCE:
+        # A clock was set back: of this date no age can be told, of the present one it can.
+        with suppress(OSError):
+            os.utime(path, follow_symlinks=False)
+    if not dead_here and age < LAPSE:
         raise _in_use(path.parent, other)
     temporary = _write_beside(path, mine)
     temporary.replace(path)

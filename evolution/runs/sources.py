@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, check_genotypes
+from evolution.runs.arrays import read_genotype_file
 from evolution.runs.folder import CHAMPIONS, RunFolder
-from evolution.runs.genotype_files import read_genotype_file
 from evolution.runs.recorded import recorded_generation, recorded_histories
 from evolution.runs.replay import population_at
 from evolution.search.algorithm import rank as ranking

@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Condition
-from evolution.experiments.jobs import Failure, Watcher, run_jobs
+from evolution.child import reference
+from evolution.experiments.jobs import Failure, Overseer, run_jobs
 from evolution.experiments.plan import LOGS, Plan
 from evolution.experiments.standing import Standing
+from evolution.experiments.variants import Variant
 from evolution.experiments.warm_workers import WarmStart
 from evolution.experiments.workers import Ended, Job
 from evolution.figures.paper import TITLES
@@ -18,6 +20,7 @@ from evolution.figures.run import save_figure
 from evolution.report.files import to_csv
 from evolution.runs.folder import RunFolder
 from evolution.runs.interrupt import StopRequest
+from evolution.runs.lock import locked
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.study.effects import effect_rows
 from evolution.study.figure import effects_figure, failures_figure
@@ -35,13 +38,13 @@ def measure_runs(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Failure, 
     if not chains:
         return ()
     print(f"measuring {len(chains)} runs", flush=True)
-    watcher = Watcher(
+    overseer = Overseer(
         on_end=_counting(len(chains)),
         on_note=lambda note: print(note, flush=True),
         wants_stop=lambda: stop.requested,
     )
     with WarmStart(plan.folder / LOGS / "workers.log") as warm:
-        return run_jobs(chains, at_once, watcher, warm)
+        return run_jobs(chains, at_once, overseer, warm)
 
 
 def _counting(total: int) -> Callable[[Ended], None]:
@@ -65,7 +68,15 @@ def _lacks_measures(plan: Plan, standing: Standing) -> bool:
 def _job(plan: Plan, standing: Standing) -> Job:
     path = plan.path(standing.config)
     log = plan.folder / LOGS / "measures.log"
-    return Job(standing.name, MEASURING, ("measure", str(path)), path, log)
+    return Job(standing.name, MEASURING, reference(measure_run), {"folder": str(path)}, path, log)
+
+
+def measure_run(folder: str) -> int:
+    """Measure a run, in a process of its own; what was simulated is kept beside it."""
+    run = RunFolder.open(Path(folder))
+    with locked(run.path):
+        measure(run)
+    return 0
 
 
 def measured_variants(plan: Plan) -> list[VariantMeasures]:
@@ -76,8 +87,7 @@ def measured_variants(plan: Plan) -> list[VariantMeasures]:
     """
     ready = [each for each in plan.configs if is_measured(plan.path(each))]
     return group(
-        (plan.variants[each.readings, each.settings], measure(RunFolder.open(plan.path(each))))
-        for each in ready
+        (plan.variants[Variant.of(each)], measure(RunFolder.open(plan.path(each)))) for each in ready
     )
 
 

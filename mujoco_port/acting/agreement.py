@@ -12,6 +12,7 @@ import os
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import astuple, dataclass, fields
 from importlib.resources import files
 from pathlib import Path
@@ -28,6 +29,7 @@ Loop = Literal["open", "delayed", "geometric", "camera"]
 AREAS: Final = ("right", "left")
 MARK: Final = "# "
 LARGEST: Final = 256 * 2**20  # [bytes], a million trials
+SAFE_PATH: Final = "PYTHONSAFEPATH"
 
 
 @dataclass(frozen=True)
@@ -118,7 +120,8 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
             writer.writerow(field.name for field in fields(Outcome))
         # Spawned, not forked: a forked child would share the parent's state of drawing and linear algebra.
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(processes, context, initializer=_move_in, initargs=(robot,)) as pool:
+        pool = ProcessPoolExecutor(processes, context, initializer=_move_in, initargs=(robot,))
+        with _current_folder_is_no_library(), pool:
             try:
                 for outcome in pool.map(carry_out_job, left):
                     writer.writerow(astuple(outcome))
@@ -131,6 +134,20 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
                 ) from None
             finally:
                 pool.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def _current_folder_is_no_library() -> Iterator[None]:
+    """While open, a Python that is started imports nothing from where it is started."""
+    before = os.environ.get(SAFE_PATH)
+    os.environ[SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[SAFE_PATH]
+        else:
+            os.environ[SAFE_PATH] = before
 
 
 def fingerprint(listed: Sequence[Job], robot: str) -> str:

@@ -65,7 +65,8 @@ def works(back_end: str) -> bool:
     """Whether a back end draws a picture, tried in a process of its own."""
     try:
         probe = subprocess.run(  # noqa: S603 - our own interpreter and text
-            [sys.executable, "-c", PROBE],
+            # -P: what lies in the current folder must not be taken for a library.
+            [sys.executable, "-P", "-c", PROBE],
             env={**os.environ, **probe_environment(back_end)},
             stdin=subprocess.DEVNULL,
             capture_output=True,

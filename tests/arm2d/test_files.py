@@ -41,7 +41,9 @@ def shared(tmp_path):
 @pytest.mark.parametrize("writer", [handle_to_append, handle_to_overwrite, handle_of_new])
 def test_a_file_that_is_a_link_is_never_written_to(writer, shared, thesis):
     (shared / "log").symlink_to(thesis)
-    with pytest.raises(OSError, match=r"log is a symbolic link; remove it|File exists"):
+    with pytest.raises(
+        OSError, match=r"log is a symbolic link, which is not followed; remove it|File exists"
+    ):
         writer(shared / "log")
     assert thesis.read_text() == "three years of work"
     assert (shared / "log").is_symlink()
@@ -58,7 +60,7 @@ def test_a_link_in_the_place_of_a_whole_file_is_replaced_not_followed(shared, th
 @pytest.mark.parametrize("writer", [handle_to_append, handle_to_overwrite])
 def test_a_pipe_in_the_place_of_a_file_is_refused_at_once(writer, shared):
     os.mkfifo(shared / "log")
-    with pytest.raises(LinkError, match="log is no regular file; remove it"):
+    with pytest.raises(LinkError, match="log is no file; remove it"):
         writer(shared / "log")
 
 

@@ -7,17 +7,20 @@ from pathlib import Path
 
 import pytest
 
+from evolution.child import reference
 from evolution.cli import main
 from evolution.experiments.cluster import connection
 from evolution.experiments.cluster.address import connected
 from evolution.experiments.cluster.agreement import Order, disagreement, fingerprint
 from evolution.experiments.cluster.running import run_jobs_on
-from evolution.experiments.jobs import Watcher
+from evolution.experiments.jobs import Overseer
+from evolution.experiments.stages import evolve_run
+from evolution.experiments.stages import test_run as carry_out_tests
 from evolution.experiments.standing import is_held
 from evolution.experiments.workers import Job
-from evolution.runs.folder import LOCK
+from evolution.runs.lock import last_word
 from tests.evolution.experiments.dask_processes import DaskProcesses, parent_of, wait_for
-from tests.evolution.small_runs import SMALL, SMALL_FLAGS, contents
+from tests.evolution.small_runs import SMALL, contents
 
 pytestmark = pytest.mark.slow
 
@@ -34,17 +37,16 @@ def dask(tmp_path_factory):
         processes.close()
 
 
-def small_job(folder, *more):
-    path = folder / "run"
-    return Job("small", "evolving", ("evolve", *SMALL_FLAGS, *more, f"--output={path}"), path, folder / "log")
+def small_job(folder, **settings):
+    path, config = folder / "run", SMALL.to_mapping()
+    config["settings"] |= settings
+    run = {"folder": str(path), "config": config}
+    return Job("small", "evolving", reference(evolve_run), run, path, folder / "log")
 
 
 def holder_of(path: Path) -> int:
     """The process that holds a run, or 0."""
-    try:
-        return int((path / LOCK).read_text() or 0) if is_held(path) else 0
-    except (OSError, ValueError):
-        return 0
+    return last_word(path).process if is_held(path) else 0
 
 
 def test_a_run_whose_worker_is_killed_goes_on_elsewhere_with_the_same_bits(dask, finished_run, tmp_path):
@@ -57,7 +59,7 @@ def test_a_run_whose_worker_is_killed_goes_on_elsewhere_with_the_same_bits(dask,
             os.kill(killed[0], signal.SIGKILL)
 
     with connected(dask.address, tmp_path) as cluster:
-        assert run_jobs_on(cluster, [[small_job(tmp_path)]], Watcher(on_tick=kill_worker)) == ()
+        assert run_jobs_on(cluster, [[small_job(tmp_path)]], Overseer(on_tick=kill_worker)) == ()
     assert killed[0] in [each.pid for each in dask.processes]
     assert contents(path) == contents(finished_run)
     log = (tmp_path / "log").read_text()
@@ -80,9 +82,9 @@ def test_a_scheduler_that_is_restarted_costs_only_what_was_not_finished(finished
         scheduler = dask.start_scheduler()
         dask.start_worker()
         with connected(dask.address, tmp_path) as cluster:
-            watcher = Watcher(on_tick=restart, on_note=notes.append)
+            overseer = Overseer(on_tick=restart, on_note=notes.append)
             cluster.on_note = notes.append
-            assert run_jobs_on(cluster, [[small_job(tmp_path)]], watcher) == ()
+            assert run_jobs_on(cluster, [[small_job(tmp_path)]], overseer) == ()
     finally:
         dask.close()
     assert restarted
@@ -91,24 +93,25 @@ def test_a_scheduler_that_is_restarted_costs_only_what_was_not_finished(finished
 
 def test_asked_to_stop_the_jobs_are_left_in_good_order(dask, tmp_path):
     path = tmp_path / "run"
-    chains = [[small_job(tmp_path, "--generations=100000")]] + [
-        [small_job(tmp_path / name, "--generations=100000")] for name in ("b", "c")
+    chains = [
+        [small_job(folder, generations=100000)] for folder in (tmp_path, tmp_path / "b", tmp_path / "c")
     ]
     with connected(dask.address, tmp_path) as cluster:
-        assert run_jobs_on(cluster, chains, Watcher(wants_stop=lambda: bool(holder_of(path)))) == ()
+        assert run_jobs_on(cluster, chains, Overseer(wants_stop=lambda: bool(holder_of(path)))) == ()
         wait_for(lambda: not any(is_held(each[0].folder) for each in chains))
-    assert "go on with the same command" in (tmp_path / "log").read_text()
+    assert "of 100000 generations" in (tmp_path / "log").read_text()
     assert (path / "checkpoint.npz").exists()
 
 
 def test_stages_follow_one_another_and_bad_input_ends_a_chain_with_its_sentence(dask, tmp_path):
-    bad, never = small_job(tmp_path / "bad", "--elites=99"), small_job(tmp_path / "never")
-    good = small_job(tmp_path / "good", "--generations=5")
-    test = Job("small", "testing", ("postevaluate", str(good.folder)), good.folder, good.log)
+    bad, never = small_job(tmp_path / "bad", elites=99), small_job(tmp_path / "never")
+    good = small_job(tmp_path / "good", generations=5)
+    tested = {"folder": str(good.folder)}
+    test = Job("small", "testing", reference(carry_out_tests), tested, good.folder, good.log)
     begun = []
-    watcher = Watcher(on_tick=lambda jobs: begun.extend(each.stage for each in jobs))
+    overseer = Overseer(on_tick=lambda jobs: begun.extend(each.stage for each in jobs))
     with connected(dask.address, tmp_path) as cluster:
-        (failure,) = run_jobs_on(cluster, [[bad, never], [good, test]], watcher)
+        (failure,) = run_jobs_on(cluster, [[bad, never], [good, test]], overseer)
     assert failure.job == bad
     assert failure.sentence == "setting elites = 99 must lie in [0, 9]"
     assert not never.folder.exists()

@@ -2,28 +2,37 @@
 
 import os
 import signal
+import sys
 import time
 
 import pytest
 
-from evolution.experiments import warm_workers, workers
-from evolution.experiments.jobs import MOST_RESTARTS, Watcher, finished_files, run_jobs
+from evolution.child import reference
+from evolution.experiments import warm_workers
+from evolution.experiments.jobs import MOST_RESTARTS, Overseer, finished_files, run_jobs
+from evolution.experiments.stages import evolve_run
 from evolution.experiments.workers import Job
-from evolution.runs.folder import LOCK
-from tests.evolution.small_runs import SMALL_FLAGS, contents
+from evolution.runs.lock import last_word
+from tests.evolution.small_runs import SMALL, contents
+
+STAND_IN = """#!{python}
+import json, os, sys
+os.execvp('sh', ['sh', '-c', json.loads(sys.argv[-1])['command']])
+"""
 
 
 @pytest.fixture
 def shell(monkeypatch, tmp_path):
-    """Jobs whose only argument is a shell command: they are started as `<program> -m evolution <command>`."""
+    """Jobs whose only argument is a shell command, carried out by a program in the place of Python."""
     program = tmp_path / "program"
-    program.write_text('#!/bin/sh\nexec sh -c "$3"\n')
+    program.write_text(STAND_IN.format(python=sys.executable))
     program.chmod(0o755)
-    monkeypatch.setattr(workers.sys, "executable", str(program))
+    monkeypatch.setattr(sys, "executable", str(program))
     monkeypatch.chdir(tmp_path)
 
     def job(command, name="one"):
-        return Job(name, "working", (command,), tmp_path / name, tmp_path / "logs" / f"{name}.log")
+        log = tmp_path / "logs" / f"{name}.log"
+        return Job(name, "working", reference(evolve_run), {"command": command}, tmp_path / name, log)
 
     return job
 
@@ -37,7 +46,7 @@ def test_jobs_of_a_chain_follow_one_another(shell, tmp_path):
 def test_no_more_run_at_once_than_allowed(shell):
     at_work = []
     jobs = [[shell("sleep 0.1", name=str(i))] for i in range(5)]
-    run_jobs(jobs, at_once=2, watcher=Watcher(on_tick=lambda each: at_work.append(len(each))))
+    run_jobs(jobs, at_once=2, overseer=Overseer(on_tick=lambda each: at_work.append(len(each))))
     assert max(at_work) == 2
 
 
@@ -60,8 +69,8 @@ def test_sentences_of_earlier_attempts_are_not_taken_for_the_last(shell, tmp_pat
 def test_a_job_that_dies_without_progress_is_started_again_three_times(shell, tmp_path):
     notes, ends = [], []
     dying, other = shell("echo x >> starts; kill -9 $$"), shell("sleep 0.5; touch other", name="other")
-    watcher = Watcher(on_note=notes.append, on_end=ends.append)
-    (failure,) = run_jobs([[dying], [other]], at_once=2, watcher=watcher)
+    overseer = Overseer(on_note=notes.append, on_end=ends.append)
+    (failure,) = run_jobs([[dying], [other]], at_once=2, overseer=overseer)
     assert len((tmp_path / "starts").read_text().split()) == 1 + MOST_RESTARTS == 4
     assert notes == ["one: killed by SIGKILL while working; started again"] * MOST_RESTARTS
     assert failure.sentence.startswith("killed by SIGKILL, 4 times without progress")
@@ -89,7 +98,7 @@ def test_asked_to_stop_it_tells_all_and_starts_no_other(shell, tmp_path):
     trap = "trap 'touch $0 stopped-{0}; exit 130' TERM; touch begun-{0}; while :; do sleep 0.05; done"
     chains = [[shell(trap.format(i), name=str(i))] for i in range(2)] + [[shell("touch third", name="third")]]
     both_begun = lambda: len(list(tmp_path.glob("begun-*"))) == 2  # noqa: E731
-    assert run_jobs(chains, at_once=2, watcher=Watcher(wants_stop=both_begun)) == ()
+    assert run_jobs(chains, at_once=2, overseer=Overseer(wants_stop=both_begun)) == ()
     assert len(list(tmp_path.glob("stopped-*"))) == 2
     assert not (tmp_path / "third").exists()
 
@@ -100,15 +109,15 @@ def test_left_by_an_exception_it_leaves_no_process_behind(shell, tmp_path):
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_jobs([[shell("echo $$ > number; exec sleep 60")]], 1, Watcher(on_tick=interrupt))
+        run_jobs([[shell("echo $$ > number; exec sleep 60")]], 1, Overseer(on_tick=interrupt))
     with pytest.raises(ProcessLookupError):
         os.kill(int((tmp_path / "number").read_text()), 0)
 
 
 def test_a_job_that_may_not_start_yet_is_asked_for_again(shell, tmp_path):
     may_start_at = time.monotonic() + 0.4
-    watcher = Watcher(may_start=lambda job: time.monotonic() > may_start_at)
-    assert run_jobs([[shell("touch done")]], 1, watcher) == ()
+    overseer = Overseer(may_start=lambda job: time.monotonic() > may_start_at)
+    assert run_jobs([[shell("touch done")]], 1, overseer) == ()
     assert (tmp_path / "done").exists()
 
 
@@ -118,13 +127,14 @@ def test_a_run_whose_worker_is_killed_equals_an_undisturbed_one(finished_run, tm
 
     def kill_twice(jobs):
         if jobs and len(list(path.glob("parts/*.npz"))) > len(killed) and len(killed) < 2:
-            holder = int((path / LOCK).read_text() or 0)
+            holder = last_word(path).process
             if holder and holder not in killed:  # else the next worker does not hold the run yet
                 killed.append(holder)
                 os.kill(holder, signal.SIGKILL)
 
-    job = Job("small", "evolving", ("evolve", *SMALL_FLAGS, f"--output={path}"), path, tmp_path / "log")
-    assert run_jobs([[job]], at_once=1, watcher=Watcher(on_tick=kill_twice)) == ()
+    run = {"folder": str(path), "config": SMALL.to_mapping()}
+    job = Job("small", "evolving", reference(evolve_run), run, path, tmp_path / "log")
+    assert run_jobs([[job]], at_once=1, overseer=Overseer(on_tick=kill_twice)) == ()
     assert killed
     assert contents(path) == contents(finished_run)
 

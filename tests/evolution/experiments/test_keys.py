@@ -11,7 +11,8 @@ from urllib.request import urlopen
 import pytest
 
 from evolution.experiments.cluster.keys import clear_keys, key_folder
-from evolution.experiments.cluster.slurm import SlurmOptions, slurm_cluster
+from evolution.experiments.cluster.options import SlurmOptions
+from evolution.experiments.cluster.slurm import slurm_cluster
 
 HOLDER = """
 import sys, time
@@ -72,7 +73,7 @@ def test_a_scheduler_for_slurm_keeps_to_this_machine_with_tls_and_answers_no_que
     sbatch.write_text("#!/bin/sh\n")
     sbatch.chmod(0o755)
     monkeypatch.setenv("PATH", f"{sbatch.parent}:{os.environ['PATH']}")
-    with slurm_cluster(SlurmOptions(), tmp_path / "experiment") as connection:
+    with slurm_cluster(SlurmOptions().complete(), tmp_path / "experiment") as connection:
         assert connection.where.startswith("tls://127.0.0.1:")
         server = connection._client.cluster.scheduler.http_server
         assert server.address == "127.0.0.1"

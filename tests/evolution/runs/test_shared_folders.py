@@ -66,7 +66,7 @@ def test_a_folder_of_runs_that_somebody_else_linked_is_not_written(tmp_path, oth
 def test_what_workers_say_and_what_they_took_is_added_to_no_link(tmp_path, thesis):
     (tmp_path / "run.log").symlink_to(thesis)
     (tmp_path / FILE).symlink_to(thesis)
-    job = Job("a run", "evolving", ("--help",), tmp_path, tmp_path / "run.log")
+    job = Job("a run", "evolving", "builtins:print", {}, tmp_path, tmp_path / "run.log")
     with pytest.raises(OSError, match=r"run\.log is a symbolic link"):
         Worker(job)
     with pytest.raises(OSError, match=rf"{FILE} is a symbolic link"):

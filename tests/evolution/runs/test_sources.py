@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from arm2d import Condition, Readings
-from evolution.runs import arrays, genotype_files, sources
+from evolution.runs import arrays, sources
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_generation, recorded_history
 from evolution.runs.replay import population_at
@@ -122,13 +122,13 @@ def test_a_file_has_no_generations(tmp_path):
 
 
 def test_a_file_that_would_fill_the_memory_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(genotype_files, "LARGEST_CONTENT", 10_000)
+    monkeypatch.setattr(arrays, "LARGEST_CONTENT", 10_000)
     monkeypatch.setattr(arrays, "LARGEST_CONTENT", 10_000)
     np.savez_compressed(tmp_path / "bomb.npz", genotypes=np.zeros((1000, 84)))
     with pytest.raises(ValueError, match="its content is larger than"):
         find_source(str(tmp_path / "bomb.npz"))
     np.save(tmp_path / "large.npy", np.zeros((1000, 84)))
-    with pytest.raises(ValueError, match="this file is larger than"):
+    with pytest.raises(ValueError, match="it is larger than"):
         find_source(str(tmp_path / "large.npy"))
 
 

@@ -8,13 +8,14 @@ import sys
 import pytest
 
 from arm2d.files import final_name, is_temporary
+from evolution.child import calling
 from evolution.runs.folder import RunFolder
 from evolution.trust.disturbances import DAMAGES, _must_be_refused, damage_and_repair
 from evolution.trust.killing import TortureError, _unfinished
 from evolution.trust.stages import Schedule, stage_of, temporaries
 from evolution.trust.tally import PARENT, WORKER, Tally
 from evolution.trust.torture import _compare
-from evolution.trust.victims import holder_of, kill, members, names
+from evolution.trust.victims import kill, members, names
 from evolution.trust.watch import OpenedFiles
 
 
@@ -37,7 +38,7 @@ def sleeper(tmp_path):
     """A process in a session of its own, with a child that sleeps like itself."""
     child = "import time; print('ready', flush=True); time.sleep(60)"
     program = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {child!r}, *sys.argv[1:]])"
-    command = [sys.executable, "-c", program, str(tmp_path / "run")]
+    command = [sys.executable, "-c", program, calling("evolution", {"folder": str(tmp_path / "run")})[-1]]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, start_new_session=True)
     assert process.stdout.readline() == b"ready\n"
     yield process
@@ -61,14 +62,6 @@ def test_a_process_of_another_session_is_spared(sleeper):
     assert not kill(sleeper.pid, os.getsid(0))
     assert not kill(0, sleeper.pid)
     assert sleeper.poll() is None
-
-
-def test_the_holder_of_a_run_is_read_from_its_lock(tmp_path):
-    assert holder_of(tmp_path) == 0
-    (tmp_path / "lock").write_text("")
-    assert holder_of(tmp_path) == 0
-    (tmp_path / "lock").write_text("4711\n")
-    assert holder_of(tmp_path) == 4711
 
 
 def test_temporary_files_tell_what_was_being_written(tmp_path):
