@@ -122,7 +122,7 @@ def _aligned(headings: Sequence[str], rows: Sequence[Row], width: int | None) ->
             cell.rjust(size) for cell, size in zip(cells[1:], columns[1:], strict=True)
         ]
         parts = [name.ljust(first), GAP, (padded[0], style), GAP, GAP.join(padded[1:])]
-        return Text.assemble(*parts, no_wrap=True, overflow="crop")
+        return Text.assemble(*parts, no_wrap=True, overflow="crop" if width else "ignore")
 
     heading = line(headings[0], headings[1:], "")
     heading.stylize("bold")

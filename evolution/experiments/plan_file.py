@@ -28,8 +28,8 @@ from evolution.search.toml import read_toml
 FILE: Final = "plan.toml"
 # A hundred thousand seeds, one a line.
 LONGEST: Final = 4_000_000
-# One run; an experiment; an experiment with variants.
-LAYOUTS: Final = (CONFIG, f"*/*/{CONFIG}", f"*/*/*/{CONFIG}")
+# Where runs are: in an experiment; in one with variants.
+LAYOUTS: Final = ("*/*", "*/*/*")
 HEADING: Final = "# The runs this folder is meant to hold; written by wordarm, for wordarm status.\n"
 
 
@@ -118,12 +118,15 @@ def experiment_standings(path: Path) -> tuple[dict[Path, Standing], list[str]]:
     plan, unreadable = _plan_or_sentence(path)
     standings = {plan.path(each): plan.standing(each) for each in plan.configs} if plan else {}
     to_be_tested = _tests_belong_to(path.absolute())
-    for folder in sorted(file.parent for layout in LAYOUTS for file in path.glob(layout)):
+    for folder in _folders_of_runs(path):
         if folder in standings:
             continue
         try:
             config = RunFolder.open(folder).config
-        except (ValueError, OSError) as error:
+        except OSError as error:
+            unreadable.append(f"{folder} cannot be read: {error.strerror}")
+            continue
+        except ValueError as error:
             unreadable.append(str(error))
             continue
         variant = folder.parts[-3] if len(folder.relative_to(path).parts) == 3 else ""
@@ -133,6 +136,18 @@ def experiment_standings(path: Path) -> tuple[dict[Path, Standing], list[str]]:
     if not standings:
         open_experiment(path)  # says what would be right
     return standings, unreadable
+
+
+def _folders_of_runs(path: Path) -> list[Path]:
+    """The folders with a config.toml at the places of runs, and those that may not be looked into."""
+    found = []
+    for folder in (path, *sorted(each for layout in LAYOUTS for each in path.glob(layout))):
+        try:
+            if (folder / CONFIG).exists():
+                found.append(folder)
+        except OSError:
+            found.append(folder)
+    return found
 
 
 def _refuse_what_is_no_folder(path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import random
 import shutil
 import subprocess
@@ -73,6 +74,8 @@ def torture(what: Torture, tell: Tell, undisturbed: Path | None = None) -> Tally
         ValueError: If something that is not ours stands in the way.
         OSError: If the folder cannot be written, or not watched.
     """
+    for left in sorted(what.folder.glob("tortured-*")):
+        _refuse_foreign(left)
     make_folder(what.folder)
     tally = Tally()
     if undisturbed is None:
@@ -130,14 +133,19 @@ def _flags(settings: Settings) -> list[str]:
 
 def _make_anew(folder: Path) -> None:
     """An empty folder with our mark, in the place of one that an earlier torture left; refuse any other."""
-    if folder.exists() and not (folder / MARK).is_file():
+    _refuse_foreign(folder)
+    shutil.rmtree(folder, ignore_errors=True)
+    make_folder(folder)
+    (folder / MARK).write_text("wordarm torture made this folder, and removes it.\n", encoding="utf-8")
+
+
+def _refuse_foreign(folder: Path) -> None:
+    """Refuse to remove what no torture made."""
+    if os.path.lexists(folder) and (folder.is_symlink() or not (folder / MARK).is_file()):
         raise ValueError(
             f"{folder} is not of an earlier torture (it has no {MARK}), and would be removed; "
             "give another folder, or move it away"
         )
-    shutil.rmtree(folder, ignore_errors=True)
-    make_folder(folder)
-    (folder / MARK).write_text("wordarm torture made this folder, and removes it.\n", encoding="utf-8")
 
 
 def _compare(expected: dict[str, bytes], found: dict[str, bytes], folder: Path) -> None:

@@ -17,6 +17,7 @@ from typing import Final
 from distributed.security import Security
 
 from arm2d.files import handle_of_new
+from evolution.runs.folder import LOCK
 from evolution.runs.lock import RunInUseError, locked
 
 PREFIX: Final = "keys-"
@@ -48,7 +49,7 @@ def own_keys(folder: Path) -> Security:
 
 
 @contextmanager
-def key_folder(logs: Path) -> Iterator[Path]:
+def folder_for_keys(logs: Path) -> Iterator[Path]:
     """While open, a folder for keys that workers on other machines can read as us; older ones are cleared.
 
     Raises:
@@ -68,7 +69,7 @@ def clear_keys(logs: Path) -> None:
     for folder in sorted(logs.glob(f"{PREFIX}*")):
         with suppress(OSError, RunInUseError):
             status = os.lstat(folder)
-            if folder.is_symlink() or status.st_uid != os.geteuid():
-                continue
+            if folder.is_symlink() or status.st_uid != os.geteuid() or not (folder / LOCK).exists():
+                continue  # somebody else's, or none of ours
             with locked(folder):
                 shutil.rmtree(folder, ignore_errors=True)

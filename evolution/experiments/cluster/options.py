@@ -142,8 +142,9 @@ def _options_of(values: Mapping[str, Any]) -> SlurmOptions:
         raise ValueError(f"there is no table [slurm]; its keys may be {', '.join(known)}")
     table = table_of("slurm", values["slurm"])
     check_keys("slurm option", table, known)
-    options = SlurmOptions(
-        **{name: tuple(value) if isinstance(value, list) else value for name, value in table.items()}
-    )
+    given: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in table.items()
+    }
+    options = SlurmOptions(**given)
     options.check()
     return options

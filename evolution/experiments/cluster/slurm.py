@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import shlex
 import shutil
@@ -19,7 +18,7 @@ from distributed.security import Security
 
 from evolution.child import python
 from evolution.experiments.cluster.connection import Connection
-from evolution.experiments.cluster.keys import key_folder, own_keys
+from evolution.experiments.cluster.keys import folder_for_keys, own_keys
 from evolution.experiments.cluster.options import LOOPBACK, SlurmOptions
 from evolution.runs.storage import make_folder
 
@@ -86,11 +85,11 @@ def slurm_cluster(options: SlurmOptions, folder: Path) -> Iterator[Connection]:
     make_folder(logs)
     cluster: Any
     with (
-        key_folder(logs) as keys,
+        folder_for_keys(logs) as keys,
         dask.config.set(NO_PAGES),
         SLURMCluster(
             **job_options,
-            job_cls=QuotedJob,
+            job_cls=QuotedJob,  # pyright: ignore - a class is meant
             security=own_keys(keys) if options.tls else None,
             # The scheduler's pages about itself: for this machine only, whatever the interface.
             scheduler_options={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
@@ -147,10 +146,9 @@ def _job_options(options: SlurmOptions, logs: Path) -> dict[str, Any]:
 def _word_for_sbatch(file: Path) -> str:
     """The name of a file as one word of a directive; in its folders a percent sign means itself."""
     name = str(file)
-    # dask-jobqueue puts the values of variables into the name of the folder for keys.
-    if not name.isprintable() or NOT_IN_A_NAME.search(name) or os.path.expandvars(name) != name:
+    if not name.isprintable() or NOT_IN_A_NAME.search(name):
         raise ValueError(
             f"{str(file.parent)!r} cannot be named in a job script; choose an --output without quotes, "
-            "backslashes, names of variables and characters that cannot be printed"
+            "backslashes and characters that cannot be printed"
         )
     return shlex.quote(f"{str(file.parent).replace('%', '%%')}/{file.name}")

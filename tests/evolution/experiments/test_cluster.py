@@ -2,12 +2,13 @@
 
 import os
 import signal
+import subprocess
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from evolution.child import reference
+from evolution.child import python, reference
 from evolution.cli import main
 from evolution.experiments.cluster import connection
 from evolution.experiments.cluster.address import connected
@@ -128,6 +129,34 @@ def test_an_experiment_runs_on_a_cluster_with_the_bits_it_has_here(
     assert main(["experiment", "small.toml", f"--scheduler={dask.address}"]) == 0
     assert "1 of 1 runs are done" in capsys.readouterr().out
     assert contents(tmp_path / "runs" / "small" / "with-indicate" / "seed-0011") == contents(finished_run)
+
+
+SBATCH = """#!/bin/sh
+cp "$1" "{folder}/script"
+sh "{folder}/script" > "{folder}/output" 2>&1 &
+echo "Submitted batch job $!"
+"""
+
+
+def test_slurm_jobs_do_the_runs_even_where_the_name_of_a_folder_is_a_program(finished_run, tmp_path):
+    """The sbatch of this test runs the script at once, as a node would."""
+    programs, here = tmp_path / "bin", tmp_path / "x;touch P;$(touch Q) y"
+    programs.mkdir()
+    here.mkdir()
+    for name, text in (("sbatch", SBATCH.format(folder=programs)), ("scancel", "#!/bin/sh\n")):
+        (programs / name).write_text(text)
+        (programs / name).chmod(0o755)
+    settings = "\n".join(f"{name} = {value}" for name, value in SMALL.settings.to_mapping().items())
+    (here / "small.toml").write_text(f"seeds = {SMALL.seed}\n[settings]\n{settings}\n")
+    done = subprocess.run(
+        python("-m", "evolution", "experiment", "small.toml", "--slurm", "--slurm.cores=1"),
+        env={**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"},
+        cwd=here, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert contents(here / "runs" / "small" / "with-indicate" / "seed-0011") == contents(finished_run)
+    assert sorted(each.name for each in here.iterdir()) == ["runs", "small.toml"]
+    assert list((here / "runs" / "small" / "logs" / "slurm").iterdir()) == []  # the keys are gone
 
 
 def test_a_cluster_with_other_versions_is_refused_before_anything_begins(dask, tmp_path):

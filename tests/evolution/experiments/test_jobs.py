@@ -11,8 +11,10 @@ from evolution.child import reference
 from evolution.experiments import warm_workers
 from evolution.experiments.jobs import MOST_RESTARTS, Overseer, finished_files, run_jobs
 from evolution.experiments.stages import evolve_run
-from evolution.experiments.workers import Job
+from evolution.experiments.warm_workers import WarmStart
+from evolution.experiments.workers import LOST, ColdStart, Job
 from evolution.runs.lock import last_word
+from tests.evolution.experiments.dask_processes import parent_of
 from tests.evolution.small_runs import SMALL, contents
 
 STAND_IN = """#!{python}
@@ -146,3 +148,64 @@ def test_the_fork_server_is_reached_by_no_path(tmp_path):
         assert server._socket.getsockname() == server._socket.getpeername() == ""
     finally:
         server.close()
+
+
+def long_job(folder, name="long"):
+    """Evolution that does not end by itself, in a folder of its own."""
+    config = SMALL.to_mapping()
+    config["settings"] |= {"generations": 1_000_000}
+    run = {"folder": str(folder / name), "config": config}
+    return Job(name, "evolving", reference(evolve_run), run, folder / name, folder / f"{name}.log")
+
+
+def wait_until(condition):
+    until = time.monotonic() + 120
+    while not condition():
+        assert time.monotonic() < until
+        time.sleep(0.01)
+
+
+def generations_of(job):
+    return last_word(job.folder).generations
+
+
+def ended(worker):
+    """How a worker ended, once it has."""
+    found = []
+    wait_until(lambda: found.append(worker.look()) or found[-1])
+    return found[-1]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["cold", "warm"])
+def test_of_a_killed_worker_it_is_known_how_it_ended_and_what_it_took(kind, tmp_path):
+    with WarmStart(tmp_path / "server.log") as warm:
+        worker = (warm if kind == "warm" else ColdStart()).start(job := long_job(tmp_path))
+        wait_until(lambda: generations_of(job) > 100)
+        pid = last_word(job.folder).process
+        assert os.getpgid(pid) == pid  # Ctrl-C reaches it through us only
+        open_files = {os.path.realpath(f"/proc/{pid}/fd/{each}") for each in os.listdir(f"/proc/{pid}/fd")}
+        assert open_files == {"/dev/null", str(job.log), str(job.folder / "lock")}
+        os.kill(pid, signal.SIGKILL)
+        end = ended(worker)
+    assert (end.exit_code, end.how) == (-signal.SIGKILL, "killed by SIGKILL")
+    assert end.wall > end.cpu > 0.02
+    assert 50 < end.peak < 1000
+    assert "from generation 0 on" in job.log.read_text()
+
+
+@pytest.mark.slow
+def test_workers_outlive_their_server_and_the_next_one_gets_another(tmp_path):
+    with WarmStart(tmp_path / "server.log") as warm:
+        first = warm.start(one := long_job(tmp_path, "one"))
+        wait_until(lambda: generations_of(one) > 0)
+        os.kill(parent_of(last_word(one.folder).process), signal.SIGKILL)
+        scored = generations_of(one)
+        wait_until(lambda: generations_of(one) > scored)
+        assert first.look() is None
+        second = warm.start(two := long_job(tmp_path, "two"))
+        wait_until(lambda: generations_of(two) > 0)
+        for worker in (first, second):
+            worker.stop()
+        assert ended(first).exit_code == LOST  # nobody saw its end
+        assert ended(second).exit_code == 130

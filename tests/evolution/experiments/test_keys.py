@@ -10,15 +10,15 @@ from urllib.request import urlopen
 
 import pytest
 
-from evolution.experiments.cluster.keys import clear_keys, key_folder
+from evolution.experiments.cluster.keys import clear_keys, folder_for_keys
 from evolution.experiments.cluster.options import SlurmOptions
 from evolution.experiments.cluster.slurm import slurm_cluster
 
 HOLDER = """
 import sys, time
 from pathlib import Path
-from evolution.experiments.cluster.keys import key_folder
-with key_folder(Path(sys.argv[1])) as folder:
+from evolution.experiments.cluster.keys import folder_for_keys
+with folder_for_keys(Path(sys.argv[1])) as folder:
     (folder / "key.pem").write_text("secret")
     print(folder, flush=True)
     time.sleep(1000)
@@ -41,7 +41,7 @@ def holder(tmp_path):
 def test_keys_lie_where_only_we_can_go_and_are_gone_afterwards(tmp_path):
     before = os.umask(0)
     try:
-        with key_folder(tmp_path) as folder:
+        with folder_for_keys(tmp_path) as folder:
             assert stat.S_IMODE(folder.stat().st_mode) == 0o700
     finally:
         os.umask(before)
@@ -50,7 +50,7 @@ def test_keys_lie_where_only_we_can_go_and_are_gone_afterwards(tmp_path):
 
 def test_keys_of_a_command_that_was_killed_are_cleared_and_those_of_a_living_one_are_not(holder, tmp_path):
     process, folder = holder
-    with key_folder(tmp_path) as own:
+    with folder_for_keys(tmp_path) as own:
         assert (folder / "key.pem").exists()
         process.send_signal(signal.SIGKILL)
         process.wait()
@@ -58,12 +58,18 @@ def test_keys_of_a_command_that_was_killed_are_cleared_and_those_of_a_living_one
         assert list(tmp_path.iterdir()) == [own]
 
 
-def test_a_link_in_the_place_of_keys_is_left_alone(tmp_path):
-    (tmp_path / "home").mkdir()
-    (tmp_path / "home" / "thesis").touch()
+def test_what_was_not_made_here_is_left_alone(tmp_path):
+    for name in ("home", "keys-of-the-house"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "lock").mkdir()
+        (tmp_path / name / "thesis").touch()
+    (tmp_path / "keys-of-the-house" / "lock").rmdir()
     (tmp_path / "keys-planted").symlink_to("home")
+    (tmp_path / "keys-pipe").mkdir()
+    os.mkfifo(tmp_path / "keys-pipe" / "lock")
+    before = sorted(tmp_path.rglob("*"))
     clear_keys(tmp_path)
-    assert (tmp_path / "home" / "thesis").exists()
+    assert sorted(tmp_path.rglob("*")) == before
 
 
 @pytest.mark.slow

@@ -100,7 +100,7 @@ def test_output_of_the_jobs_goes_into_the_folder_whatever_it_is_called(tmp_path)
     ]
 
 
-@pytest.mark.parametrize("name", ["it's", 'a"b', "back\\slash", "line\nbreak", "$HOME"])
+@pytest.mark.parametrize("name", ["it's", 'a"b', "back\\slash", "line\nbreak"])
 def test_a_folder_that_no_script_can_name_is_refused_before_anything_is_submitted(
     name, tmp_path, monkeypatch, capsys
 ):

@@ -67,6 +67,26 @@ def test_a_lease_that_cannot_be_read_is_waited_for_like_any_other(content, tmp_p
         pass
 
 
+@pytest.mark.parametrize("holder", [ELSEWHERE, None])
+def test_a_lease_dated_in_the_future_is_judged_by_whether_it_moves(holder, tmp_path):
+    """A clock was set back by a day: the dead lapse as ever, and who goes on touching is alive."""
+    leave(tmp_path, age=-86_400)
+    if holder is None:
+        (tmp_path / LEASE).write_text("")
+        os.utime(tmp_path / LEASE, (time.time() + 86_400,) * 2)
+    assert not is_held(tmp_path)  # for whoever only looks, such a date is no sign of life
+    with pytest.raises(RunInUseError, match="or did so less than 90 s ago"), locked(tmp_path):
+        pass
+    dated = (tmp_path / LEASE).stat().st_mtime
+    assert abs(dated - time.time()) < 3600
+    with pytest.raises(RunInUseError), locked(tmp_path):  # asked again, it is not dated again
+        pass
+    assert (tmp_path / LEASE).stat().st_mtime == dated
+    os.utime(tmp_path / LEASE, (dated - LAPSE - 5,) * 2)  # nobody touched it for so long
+    with locked(tmp_path):
+        assert json.loads((tmp_path / LEASE).read_text())["process"] == os.getpid()
+
+
 def holder_process(folder, renewal=15.0):
     """A real process that holds a folder, and has said so."""
     code = (

@@ -14,7 +14,7 @@ from evolution.trust.disturbances import DAMAGES, _must_be_refused, damage_and_r
 from evolution.trust.killing import TortureError, _unfinished
 from evolution.trust.stages import Schedule, stage_of, temporaries
 from evolution.trust.tally import PARENT, WORKER, Tally
-from evolution.trust.torture import _compare
+from evolution.trust.torture import MARK, Torture, _compare, _make_anew, torture
 from evolution.trust.victims import kill, members, names
 from evolution.trust.watch import OpenedFiles
 
@@ -126,3 +126,20 @@ def test_an_unfinished_file_that_gets_its_name_while_it_is_counted_is_none(tmp_p
         tmp_path / "gone"
     )  # listed, and not there when it is looked at
     assert [each.name for each, _ in _unfinished(tmp_path)] == [".part.npz.tmp"]
+
+
+def test_a_folder_that_an_earlier_torture_did_not_make_is_neither_removed_nor_used(tmp_path):
+    (tmp_path / "tortured-1").mkdir()
+    (tmp_path / "tortured-1" / "thesis.txt").write_text("a year's work")
+    with pytest.raises(
+        ValueError, match=r"tortured-1 is not of an earlier torture \(it has no .*give another"
+    ):
+        torture(Torture(tmp_path, kills=1), print, undisturbed=tmp_path / "undisturbed")
+    assert [each.name for each in tmp_path.rglob("*")] == ["tortured-1", "thesis.txt"]
+
+
+def test_what_an_earlier_torture_left_makes_room_for_the_next(tmp_path):
+    _make_anew(tmp_path / "tortured-1")
+    (tmp_path / "tortured-1" / "left").touch()
+    _make_anew(tmp_path / "tortured-1")
+    assert [each.name for each in (tmp_path / "tortured-1").iterdir()] == [MARK]
