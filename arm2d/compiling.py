@@ -12,12 +12,17 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
+from importlib.resources import files
+from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import numba
+
+# What can change a number: code, and the descriptions of scenes. A template or a picture cannot.
+SUFFIXES: Final = (".py", ".xml")
 
 
 def compiled(function: Callable | None = None, *, allocates: bool = True, **options: Any) -> Any:
@@ -45,7 +50,7 @@ def compiled(function: Callable | None = None, *, allocates: bool = True, **opti
 def cache_folder() -> str | None:
     """Where machine code is kept, below the user's cache folder; None if nothing can be written there."""
     home = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    folder = Path(home) / "wordarm" / f"kernel-{_sources_digest()}"
+    folder = Path(home) / "wordarm" / f"kernel-{sources_digest('arm2d')}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError:
@@ -53,9 +58,22 @@ def cache_folder() -> str | None:
     return str(folder) if os.access(folder, os.W_OK) else None
 
 
-def _sources_digest() -> str:
-    """Changes with any source file of this package."""
+def sources_digest(*packages: str) -> str:
+    """Twelve hexadecimal digits that change with every source file of these packages, wherever it lies."""
     digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.rglob("*.py")):
-        digest.update(path.read_bytes())
+    for package in packages:
+        for place, source in source_files(files(package), package):
+            content = source.read_bytes()
+            digest.update(f"{place} {len(content)}\n".encode())
+            digest.update(content)
     return digest.hexdigest()[:12]
+
+
+def source_files(folder: Traversable, place: str) -> Iterator[tuple[str, Traversable]]:
+    """(place, file) of each source file in a folder and below it, in alphabetical order."""
+    for each in sorted(folder.iterdir(), key=lambda each: each.name):
+        name = f"{place}/{each.name}"
+        if each.is_dir():
+            yield from source_files(each, name)
+        elif each.name.endswith(SUFFIXES):
+            yield name, each

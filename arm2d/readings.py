@@ -97,6 +97,10 @@ class Readings:
     collision_penalty: Literal["ratio", "whole"] = "ratio"
     """The line of eq. 5 is garbled: P1 scales the distance ratio only, or the whole of F1."""
 
+    def __repr__(self) -> str:
+        other = (each.name for each in fields(self) if getattr(self, each.name) != each.default)
+        return f"Readings({', '.join(f'{name}={getattr(self, name)!r}' for name in other)})"
+
     def __post_init__(self) -> None:
         for name, allowed in choices().items():
             if getattr(self, name) not in allowed:

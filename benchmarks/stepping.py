@@ -64,9 +64,9 @@ def gymnasium_vector(n: int, mode: str) -> Callable[[int], None]:
     """Gymnasium's own vector of worlds, or ours."""
     import gymnasium
 
-    import arm2d.environment
+    import arm2d.worlds.environment
 
-    worlds = gymnasium.make_vec(arm2d.environment.NAME, num_envs=n, vectorization_mode=mode)
+    worlds = gymnasium.make_vec(arm2d.worlds.environment.NAME, num_envs=n, vectorization_mode=mode)
     worlds.reset(seed=1)
     actions = np.random.default_rng(1).integers(0, 3, (16, n, 2))
     return lambda k: worlds.step(actions[k % 16]) and None

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d import Condition, Instruction, Readings, TrialRecord, Trials, decode, draw_trials, record_trial
 from arm2d.arithmetic import sigmoid
 from arm2d.constants import MAX_STEPS, N_INTER
+from arm2d.records import brief
 from arm2d.view import in_view
 from evolution.search.randomness import Purpose, generator
 
@@ -51,6 +52,8 @@ class Behaviour:
     activity: NDArray[np.float64]
     first_sight: NDArray[np.int64]
     first_touch: NDArray[np.int64]
+
+    __repr__ = brief
 
     def __len__(self) -> int:
         return len(self.instructions)

@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.agents.behaviour import record_behaviour
 from evolution.agents.events import WINDOWS, shares_by_event
 from evolution.agents.lesions import LESIONS, lesion_scores
@@ -75,6 +76,8 @@ class Observation:
     lesioned: NDArray[np.float64]
     windows: NDArray[np.float64]
     shares: NDArray[np.float64]
+
+    __repr__ = brief
 
 
 def observation_path(run: RunFolder, sampling: Sampling) -> Path:

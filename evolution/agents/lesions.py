@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import ActionWord, Condition, LabelChanges, ObjectWord, Readings, Trials, run_trials
 from arm2d.kernel.world import WORD_CODES
+from arm2d.records import brief
 from evolution.agents.behaviour import TRIALS_PER_AREA, draw_behaviour_trials
 
 WORDS: Final = ("action", "object")
@@ -64,6 +65,8 @@ class LesionScores:
     per_area: int
     intact: NDArray[np.float64]
     lesioned: NDArray[np.float64]
+
+    __repr__ = brief
 
     def arrays(self) -> dict[str, NDArray]:
         """Its arrays by name, ready for an .npz."""

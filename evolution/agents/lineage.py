@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
+from arm2d.records import brief
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History
 from evolution.runs.recorded import recorded_history
@@ -39,6 +40,8 @@ class Lineage:
     genotypes: NDArray[np.float64]
     fitness: NDArray[np.float64]
     changed: NDArray[np.bool_]
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         for each in fields(self):

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, TrialRecord, Trials, draw_trials, record_trial, run_trials
+from arm2d.records import brief
 from evolution.agents.lineage import Lineage
 from evolution.search.randomness import Purpose, generator
 
@@ -50,6 +51,8 @@ class Skills:
     shares: NDArray[np.float64]
     first: NDArray[np.int64]
     for_good: NDArray[np.int64]
+
+    __repr__ = brief
 
     @classmethod
     def along(cls, shares: NDArray[np.float64]) -> Skills:

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import draw_trials, run_trials
+from arm2d.records import brief
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History, check_array, check_range
 from evolution.runs.storage import make_folder
@@ -42,6 +43,8 @@ class PostEvaluation:
 
     generations: NDArray[np.int32]
     successes: NDArray[np.int16]
+
+    __repr__ = brief
 
     @property
     def agents(self) -> NDArray[np.int16]:

@@ -14,6 +14,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.agents import postevaluation
 from evolution.agents.postevaluation import TRIALS, best_genotypes, late_spans
 from evolution.agents.subtasks import AgentClass, classify
@@ -46,6 +47,8 @@ class TransitionTest:
     classes: NDArray[np.int8]
     action: NDArray[np.int16]
     object: NDArray[np.int16]
+
+    __repr__ = brief
 
     @classmethod
     def join(cls, parts: list[TransitionTest]) -> TransitionTest:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import DT
+from arm2d.records import brief
 from evolution.agents.behaviour import NEVER, Behaviour
 
 # Bins from so many steps before an event to so many after it.
@@ -44,6 +45,8 @@ class VarianceShares:
     crossed: NDArray[np.float64]
     rest: NDArray[np.float64]
     actions: NDArray[np.int64]
+
+    __repr__ = brief
 
     def mean(self, start: float, stop: float) -> tuple[float, float, float]:
         """Mean shares of object, action and crossed between two times [s], bounds included; else NaN."""

@@ -36,8 +36,9 @@ class Gallery(AgentCommand):
         from evolution.agents.recording import record_instruction
         from evolution.runs.storage import make_folder
         from models.robots import get_robot
+        from mujoco_port.film.names import film_name
         from mujoco_port.film.physical_port import check_acts, port_physical_gallery
-        from mujoco_port.film.port import port_gallery
+        from mujoco_port.film.port import check_films, port_gallery
 
         get_robot(self.robot)  # refuses unknown names before anything is made
         source = self.find_agent()
@@ -49,9 +50,17 @@ class Gallery(AgentCommand):
         if physics:
             check_acts(self.robot)
         home = Path() if source.folder is None else source.folder.path
-        kind = f"-{self.closed_loop}" if self.closed_loop else "-physics" if self.physics else ""
-        name = f"{source.name}-gallery{kind}.mp4"
+        name = film_name(
+            source.name,
+            "gallery",
+            start_area=self.start_area,
+            trial_seed=self.trial_seed,
+            robot=self.robot,
+            physics=physics,
+            closed_loop=self.closed_loop,
+        )
         output = self.output or home / "videos" / name
+        check_films()
         make_folder(output.parent)
         carried_out = sum(record.success for record in records)
         title = f"{source.name}: nine instructions, two of them never met; {carried_out} carried out"

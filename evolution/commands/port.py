@@ -29,7 +29,9 @@ class Port(AgentCommand):
     """Which humanoid; an unknown name lists those there are."""
 
     output: Path | None = None
-    """The video. By default `videos/<agent>-<instruction>.mp4` in the run folder, or in the current one."""
+    """The video; a file of that name is replaced once the new one is complete. By default
+    `videos/<agent>-<instruction>.mp4` in the run folder or the current one; the name also tells start area,
+    seed, robot and physics where they are not the default."""
 
     physics: bool = False
     """Let the robot act: motors, free objects, contacts; prints what became of it in 2D and 3D."""
@@ -50,18 +52,28 @@ class Port(AgentCommand):
         from evolution.agents.recording import record_instruction
         from evolution.runs.storage import make_folder
         from models.robots import get_robot
+        from mujoco_port.film.names import film_name
         from mujoco_port.film.physical_port import check_acts, port_physical_trial
-        from mujoco_port.film.port import port_trial
+        from mujoco_port.film.port import check_films, port_trial
 
         get_robot(self.robot)  # refuses unknown names before anything is made
         source = self.find_agent()
         record = record_instruction(source, instruction, self.start_area, self.trial_seed)
         home = Path() if source.folder is None else source.folder.path
-        words = f"{instruction.action.name}-{instruction.object.name}".lower()
-        output = self.output or home / "videos" / f"{source.name}-{words}.mp4"
+        name = film_name(
+            source.name,
+            str(instruction),
+            start_area=self.start_area,
+            trial_seed=self.trial_seed,
+            robot=self.robot,
+            physics=physics,
+            closed_loop=self.closed_loop,
+        )
+        output = self.output or home / "videos" / name
         if self.video:
             if physics:
                 check_acts(self.robot)
+            check_films()
             make_folder(output.parent)
         if physics:
             shown = output if self.video else None

@@ -53,12 +53,13 @@ class Experiment:
         return self.all_runs[0].config.readings
 
 
-def open_experiment(path: Path) -> Experiment:
+def open_experiment(path: Path | str) -> Experiment:
     """The experiment in a folder; a single run's folder is an experiment of one.
 
     Raises:
         ValueError: If there is no readable run in it, or its runs took place under different readings.
     """
+    path = Path(path)
     folders = (
         [path] if (path / CONFIG).is_file() else sorted(each.parent for each in path.glob(f"*/*/{CONFIG}"))
     )

@@ -30,13 +30,14 @@ MOST_VARIANTS: Final = 10_000
 LARGEST_WHOLE: Final = 10**300
 
 
-def read_experiment(path: Path) -> ExperimentSpec:
+def read_experiment(path: Path | str) -> ExperimentSpec:
     """What an experiment file asks for.
 
     Raises:
         ValueError: With one sentence, if the file cannot be read, is no TOML, has an unknown key, a value of
             the wrong kind, an empty grid, or the same thing twice.
     """
+    path = Path(path)
     try:
         values = read_toml(_text_of(path), LARGEST_FILE)
         return experiment_from_mapping(values, Path("runs") / path.stem)

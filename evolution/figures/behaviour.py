@@ -25,7 +25,7 @@ DASHES: Final = (0, (4, 2.5))
 SHOWN_PER_AREA: Final = 10
 
 
-def trajectories_figure(behaviour: Behaviour, readings: Readings, origin: str) -> Figure:
+def trajectories_figure(behaviour: Behaviour, readings: Readings, origin: str = "") -> Figure:
     """A page with both joint angles over time, a panel for each instruction."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 9.4))
@@ -106,7 +106,7 @@ def trajectory_handles() -> list[Line2D]:
     ]
 
 
-def lesions_figure(scores: LesionScores, origin: str) -> Figure:
+def lesions_figure(scores: LesionScores, origin: str = "") -> Figure:
     """A page with success without and with each lesion, a row for each instruction; a mean over agents."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 5.3))

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import NON_EXPERIENCED
 from arm2d.drawing import INK, OBJECT_COLOURS
+from arm2d.records import brief
 from evolution.agents.lineage_scores import IN_A_ROW, NEVER, LineageScores, Skills
 from evolution.figures.style import FAINT, STYLE
 
@@ -49,8 +50,10 @@ class Row:
     never_met: bool = False
     beside: NDArray[np.float64] | None = None
 
+    __repr__ = brief
 
-def lineage_figure(scores: LineageScores, origin: str) -> Figure:
+
+def lineage_figure(scores: LineageScores, origin: str = "") -> Figure:
     """A page with twelve rows: S1 on the target with S2 bent by action word, then the nine instructions."""
     groups = skill_rows(scores)
     n_rows = sum(len(rows) for _, rows in groups)

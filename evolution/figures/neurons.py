@@ -32,7 +32,7 @@ SHARE_LABELS: Final = {
 }
 
 
-def activity_figure(behaviour: Behaviour, origin: str) -> Figure:
+def activity_figure(behaviour: Behaviour, origin: str = "") -> Figure:
     """A page with each inter-neuron's mean output round each event, a line for each instruction."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 6.6))
@@ -65,7 +65,7 @@ def draw_activity(axes: Axes, means: NDArray[np.float64]) -> None:
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def variance_figure(shares: Mapping[str, VarianceShares], origin: str) -> Figure:
+def variance_figure(shares: Mapping[str, VarianceShares], origin: str = "") -> Figure:
     """A page with the shares of variance round each event, by the event's name."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 4.0))

@@ -30,7 +30,7 @@ SUCCESS_MAP: Final = LinearSegmentedColormap.from_list(
 )
 
 
-def heat_map(evaluation: Evaluation, origin: str) -> Figure:
+def heat_map(evaluation: Evaluation, origin: str = "") -> Figure:
     """A page with the successes of one agent on all nine instructions."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.0, 5.7))
@@ -80,7 +80,7 @@ def _draw_cell(axes: Axes, row: int, column: int, count: int, trials: int, never
         axes.add_patch(frame)
 
 
-def fitness_curve(history: History, condition: Condition, origin: str) -> Figure:
+def fitness_curve(history: History, condition: Condition, origin: str = "") -> Figure:
     """A page with the fitness of a run over its generations."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.6, 4.6))
@@ -130,13 +130,13 @@ def running_median(values: NDArray[np.float64], width: int = 51) -> NDArray[np.f
     return np.nanmedian(np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1), axis=-1)
 
 
-def save_figure(figure: Figure, stem: Path) -> list[Path]:
+def save_figure(figure: Figure, stem: Path | str) -> list[Path]:
     """Write a figure as PNG and SVG beside each other; both paths. The SVG stays small, see `drawings`.
 
     Raises:
         OSError: If they cannot be written; then neither is left half-written.
     """
-    paths = []
+    paths, stem = [], Path(stem)
     for suffix, data in (("png", png_bytes(figure)), ("svg", svg_bytes(figure))):
         paths.append(stem.with_name(f"{stem.name}.{suffix}"))
         write_atomically(paths[-1], data)

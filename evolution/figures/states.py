@@ -22,7 +22,7 @@ from evolution.figures.style import FAINT, STYLE
 SHOWN_PER_AREA: Final = 3
 
 
-def state_space_figure(behaviour: Behaviour, origin: str) -> Figure:
+def state_space_figure(behaviour: Behaviour, origin: str = "") -> Figure:
     """A page with the paths of the three outputs in the plane that shows most of them, by action word."""
     mean, plane, shares = principal_plane(behaviour.activity)
     actions = [each.action.name for each in behaviour.condition.instructions[::3]]

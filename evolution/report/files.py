@@ -23,7 +23,7 @@ from evolution.results.records import ConditionResults, Results
 from evolution.runs.storage import make_folder, write_arrays, write_atomically
 
 
-def write_results(results: Results, folder: Path) -> list[Path]:
+def write_results(results: Results, folder: Path | str) -> list[Path]:
     """Write everything into a folder; the paths, tables first.
 
     Raises:
@@ -31,6 +31,7 @@ def write_results(results: Results, folder: Path) -> list[Path]:
         OSError: If it cannot be written.
     """
     check_some_tested(results)
+    folder = Path(folder)
     make_folder(folder)
     tables = {
         "table-ii.csv": table_ii_rows(results),

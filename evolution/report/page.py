@@ -45,7 +45,7 @@ TEMPLATE: Final = "template.html"
 FIGURE_FOLDERS: Final = {"lineage": "Its line of ancestors", "behaviour": "How it does it"}
 
 
-def write_report(results: Results, path: Path) -> Path:
+def write_report(results: Results, path: Path | str) -> Path:
     """Write the page.
 
     Args:
@@ -59,6 +59,7 @@ def write_report(results: Results, path: Path) -> Path:
         ValueError: If a file of a shown run is damaged.
         OSError: If it cannot be written.
     """
+    path = Path(path)
     make_folder(path.parent)
     # Names of folders and files may be no text at all.
     write_atomically(path, render(results, path.parent).encode(errors="replace"))

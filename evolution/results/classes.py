@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition
+from arm2d.records import brief
 from evolution.agents.classes import CLASSES, PARTS, Observation, Sampling
 from evolution.agents.events import WINDOWS
 from evolution.agents.lesions import LESIONS
@@ -51,6 +52,8 @@ class ClassBehaviour:
     windows: NDArray[np.float64]
     shares: NDArray[np.float64]
     representative: tuple[RunFolder, int, int] | None
+
+    __repr__ = brief
 
     @property
     def known(self) -> NDArray[np.bool_]:

@@ -19,6 +19,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.agents.postevaluation import late_history
 from evolution.results.statistics import sign_flip_test
 from evolution.runs.folder import RunFolder
@@ -52,6 +53,8 @@ class Generalisers:
     stays: NDArray[np.int64]
     verdicts: NDArray[np.int64]
     longest_line: int
+
+    __repr__ = brief
 
     def __len__(self) -> int:
         return len(self.ranks)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings
+from arm2d.records import brief
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.results import published
 from evolution.results.records import ConditionResults, Results
@@ -37,6 +38,8 @@ class KeyNumber:
     ours: float
     of: int
     runs: NDArray[np.float64]
+
+    __repr__ = brief
 
 
 def top_name(subtask: str) -> str:

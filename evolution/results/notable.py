@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED
+from arm2d.records import brief
 from evolution.agents.postevaluation import N_INSTRUCTIONS
 from evolution.results.records import ConditionResults
 from evolution.runs.folder import RunFolder
@@ -28,6 +29,8 @@ class Agent:
     generation: int
     rank: int
     successes: NDArray[np.int16]
+
+    __repr__ = brief
 
 
 def best_agent(results: ConditionResults) -> Agent | None:

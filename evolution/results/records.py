@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition
+from arm2d.records import brief
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.experiments.experiment import Experiment
 from evolution.results.generalisers import Generalisers
@@ -46,6 +47,8 @@ class TransitionOutcome:
     object_success: NDArray[np.float64]
     runs_action: int
     runs_object: int
+
+    __repr__ = brief
 
 
 @dataclass(frozen=True)
@@ -87,6 +90,8 @@ class ConditionResults:
     generalisers: tuple[Generalisers, ...]
     transitions: Mapping[AgentClass, TransitionOutcome]
     missing: tuple[str, ...]
+
+    __repr__ = brief
 
     @property
     def n_agents(self) -> int:

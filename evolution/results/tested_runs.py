@@ -9,6 +9,7 @@ from shlex import quote
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.agents.postevaluation import PostEvaluation, read_post_evaluation
 from evolution.agents.solving import solved_trials
 from evolution.agents.transition_test import TransitionTest, read_transition_test
@@ -40,6 +41,8 @@ class TestedRun:
     longest_stay: int
     evaluation: PostEvaluation
     transitions: TransitionTest
+
+    __repr__ = brief
 
 
 def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[str]]:

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,12 +55,13 @@ class RunFolder:
     config: RunConfig
 
     @classmethod
-    def open(cls, path: Path) -> RunFolder:
+    def open(cls, path: Path | str) -> Self:
         """The folder of a run that was started before.
 
         Raises:
             ValueError: If there is none, or its config.toml cannot be understood.
         """
+        path = Path(path)
         config = path / CONFIG
         if not path.is_dir():
             raise ValueError(f"{path} is not a folder; give the folder of a run, with its {CONFIG}")
@@ -75,7 +76,7 @@ class RunFolder:
             ) from None
 
     @classmethod
-    def create(cls, path: Path, config: RunConfig) -> RunFolder:
+    def create(cls, path: Path, config: RunConfig) -> Self:
         """The folder of this run, with its config.toml.
 
         Raises:

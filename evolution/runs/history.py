@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
+from arm2d.records import brief
 from evolution.runs.storage import DamagedFileError
 from evolution.search.algorithm import mean_in_order, rank
 from evolution.search.config import RunConfig
@@ -47,6 +48,8 @@ class History:
     mean: NDArray[np.float64]
     median: NDArray[np.float64]
     worst: NDArray[np.float64]
+
+    __repr__ = brief
 
     @classmethod
     def join(cls, histories: Iterable[History]) -> History:

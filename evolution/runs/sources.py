@@ -43,6 +43,9 @@ class Source:
     name: str
     folder: RunFolder | None = None
 
+    def __repr__(self) -> str:
+        return f"<Source: {self.origin}>"
+
 
 def find_source(
     text: str, *, generation: int | None = None, rank: int = 0, condition: Condition | None = None

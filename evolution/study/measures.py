@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import draw_trials, run_trials
+from arm2d.records import brief
 from evolution.agents.postevaluation import N_INSTRUCTIONS, best_genotypes, late_spans
 from evolution.agents.solving import solved_trials
 from evolution.agents.subtasks import AgentClass, categories, classify
@@ -50,6 +51,8 @@ class RunMeasures:
     first_solved: int
     solved_late: float
     successes: NDArray[np.int16]
+
+    __repr__ = brief
 
     @property
     def at_limit(self) -> bool:

@@ -19,7 +19,7 @@ from evolution.search.scoring import score_population
 Tell = Callable[[str], None]
 
 
-def repair(path: Path, on_note: Tell = lambda note: None) -> int:
+def repair(path: Path | str, on_note: Tell = lambda note: None) -> int:
     """Make every file of a run sound again, with the bits it had before.
 
     Tests that were not yet made are left to `wordarm postevaluate`.
@@ -37,7 +37,7 @@ def repair(path: Path, on_note: Tell = lambda note: None) -> int:
         OSError: If the folder cannot be written.
     """
     folder = RunFolder.open(path)
-    with locked(path):
+    with locked(folder.path):
         n_repaired, population = _repair_parts(folder, on_note)
         n_repaired += _repair_checkpoint(folder, population, on_note)
         if len(folder.finished_spans()) == len(folder.spans):

@@ -14,7 +14,6 @@ from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import astuple, dataclass, fields
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, Final, Literal
 
@@ -22,7 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
+from arm2d.compiling import sources_digest
 from arm2d.files import handle_to_append, read_file, write_whole
+from arm2d.records import brief
 from models.robots import get_robot
 
 Loop = Literal["open", "delayed", "geometric", "camera"]
@@ -30,6 +31,8 @@ AREAS: Final = ("right", "left")
 MARK: Final = "# "
 LARGEST: Final = 256 * 2**20  # [bytes], a million trials
 SAFE_PATH: Final = "PYTHONSAFEPATH"
+# Whose code decides what becomes of a trial in either world.
+PACKAGES: Final = ("arm2d", "models", "mujoco_port")
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,8 @@ class Agent:
     genotype: NDArray[np.float64]
     instructions: tuple[Instruction, ...]
     readings: Readings
+
+    __repr__ = brief
 
 
 @dataclass(frozen=True)
@@ -152,13 +157,9 @@ def _current_folder_is_no_library() -> Iterator[None]:
 
 def fingerprint(listed: Sequence[Job], robot: str) -> str:
     """What determines the outcomes: sources, robot, genotypes and starts."""
-    digest = hashlib.sha256(robot.encode())
-    for package in ("arm2d", "models", "mujoco_port"):
-        for source in sorted(files(package).iterdir(), key=lambda each: each.name):
-            if source.name.endswith((".py", ".xml")):
-                digest.update(source.read_bytes())
+    digest = hashlib.sha256(f"{robot} {sources_digest(*PACKAGES)}".encode())
     for job in listed:
-        digest.update(f"{job.agent.name} {job.loop} {job.agent.readings}".encode())
+        digest.update(f"{job.agent.name} {job.loop} {job.agent.readings.to_mapping()}".encode())
         for array in (
             job.agent.genotype,
             job.trial.alpha,

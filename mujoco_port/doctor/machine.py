@@ -17,11 +17,14 @@ CGROUP_LIMIT: Final = Path("/sys/fs/cgroup/cpu.max")
 SCARCE_BYTES, TOO_LITTLE_BYTES = 1e9, 5e7  # the paper's twenty runs take 0.4 GB, a video some MB
 CACHE: Final = "from arm2d.compiling import cache_folder; print(cache_folder() or '')"
 ENCODER: Final = """
-import imageio_ffmpeg, subprocess
-program = imageio_ffmpeg.get_ffmpeg_exe()
-print(program, imageio_ffmpeg.get_ffmpeg_version())
-listed = subprocess.run([program, "-hide_banner", "-encoders"], capture_output=True, text=True, check=True)
-assert "libx264" in listed.stdout, f"{program} has no H.264 encoder (libx264)"
+import sys
+from arm2d.films import NoEncoderError, find_encoder
+try:
+    print(find_encoder())
+except NoEncoderError as error:
+    sys.exit(str(error).split(";")[0])
+import imageio_ffmpeg
+print(imageio_ffmpeg.get_ffmpeg_version())
 """
 
 
@@ -89,10 +92,11 @@ def encoder() -> Finding:
     """The program that writes videos."""
     asked = attempt(ENCODER)
     if asked.works:
-        return Finding(TOPIC, "ffmpeg", State.WORKS, " ".join(asked.lines[-1].rsplit(" ", 1)[::-1]))
+        program, version = asked.lines[-2:]
+        return Finding(TOPIC, "ffmpeg", State.WORKS, f"{version} {program}")
     set_by_hand = "IMAGEIO_FFMPEG_EXE" in os.environ
     move = "unset IMAGEIO_FFMPEG_EXE" if set_by_hand else "pip install --force-reinstall imageio-ffmpeg"
-    return Finding(TOPIC, "ffmpeg", State.MISSING, asked.reason.split(": ", 1)[-1], move)
+    return Finding(TOPIC, "ffmpeg", State.MISSING, asked.reason, move)
 
 
 def robots() -> list[Finding]:

@@ -14,7 +14,8 @@ from rich.progress import track
 from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.constants import DT
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
-from arm2d.video import Panel, write_mp4
+from arm2d.films import write_mp4, write_png
+from arm2d.video import Panel
 from models.robots import Robot
 from mujoco_port.film.caption import BADGE, FAINT, blank, mark, pixels
 from mujoco_port.film.overlay import halved
@@ -50,14 +51,11 @@ def write_gallery(takes: Sequence[Take], robot: Robot, title: str, path: Path) -
     Raises:
         OSError: If a file cannot be written.
     """
-    import imageio.v3 as imageio
-
     total = max(len(take.steps) for take in takes) + round(HOLD_S * PER_SECOND)
     shown = track(frames(takes, robot, title), f"{len(takes)} instructions on {robot.name}", total=total)
     poster, last = path.with_suffix(".png"), []
     write_mp4(remember_last(shown, last), path, PER_SECOND)
-    imageio.imwrite(poster, last[0])
-    return poster
+    return write_png(last[0], poster)
 
 
 def remember_last(

@@ -1,7 +1,5 @@
 """The robot at its table in MuJoCo, posed moment by moment and drawn off-screen.
 
-Import only after `mujoco_port.film.gl.choose_back_end`.
-
 A software renderer takes its time by the pixel, and three times over where there are shadows. Floor, sky and
 the table's legs never change and fill half of a picture: they are drawn once and laid under the rest.
 """
@@ -16,6 +14,7 @@ from numpy.typing import NDArray
 
 from models.build import ROBOT_PREFIX, build_spec
 from models.robots import Robot
+from mujoco_port.film.gl import new_context
 from mujoco_port.film.overlay import lay_over
 
 OBJECTS: Final = ("blue", "green", "red")
@@ -56,7 +55,7 @@ class Stage:
         self._view = mujoco.MjvCamera()
         self._view.type = mujoco.mjtCamera.mjCAMERA_FIXED
         self._view.fixedcamid = self.model.camera(camera).id
-        self._context = mujoco.GLContext(width_px, height_px)
+        self._context = new_context(width_px, height_px)
         self._context.make_current()
         self._drawer = mujoco.MjrContext(self.model, mujoco.mjtFontScale.mjFONTSCALE_100)
         self._drawer.readDepthMap = mujoco.mjtDepthMap.mjDEPTH_ZEROFAR.value

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from arm2d import TrialRecord
 from arm2d.drawing import state_at
+from arm2d.records import brief
 from models.robots import Robot
 from mujoco_port.film.kinematic import roll_out
 
@@ -33,6 +34,8 @@ class Take:
     objects: NDArray[np.float64]
     touched: NDArray[np.bool_]
     verdicts: tuple[tuple[str, bool], ...]
+
+    __repr__ = brief
 
 
 def kinematic_take(record: TrialRecord, robot: Robot, frames_per_step: float) -> Take:

@@ -12,7 +12,8 @@ from rich.progress import track
 
 from arm2d import TrialRecord
 from arm2d.constants import DT
-from arm2d.video import Panel, write_mp4
+from arm2d.films import write_mp4
+from arm2d.video import Panel
 from models.robots import Robot
 from mujoco_port.film.caption import footing, heading
 from mujoco_port.film.kinematic import FRAMES_PER_STEP

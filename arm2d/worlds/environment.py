@@ -1,6 +1,6 @@
 """The world as Gymnasium knows worlds (extra `gym`): learn the seven instructions, be asked all nine.
 
-    import arm2d.environment                                  # registers the name
+    import arm2d.worlds.environment                                  # registers the name
     world = gymnasium.make("wordarm/Instructions-v0")
     worlds = gymnasium.make_vec("wordarm/Instructions-v0", num_envs=4096)
 
@@ -24,9 +24,9 @@ from arm2d.constants import N_INPUTS
 from arm2d.instructions import NON_EXPERIENCED, Condition, Instruction
 from arm2d.readings import Readings
 from arm2d.trials import Trials, draw_trials
-from arm2d.vector_world import VectorWorld
 from arm2d.video import Panel
-from arm2d.world import World
+from arm2d.worlds.vector_world import VectorWorld
+from arm2d.worlds.world import World
 
 NAME: Final = "wordarm/Instructions-v0"
 Asked = Literal["experienced", "held-out", "all"]
@@ -202,6 +202,6 @@ class InstructionsVectorEnv(VectorEnv):
 
 gymnasium.register(
     NAME,
-    entry_point="arm2d.environment:InstructionsEnv",
-    vector_entry_point="arm2d.environment:InstructionsVectorEnv",
+    entry_point="arm2d.worlds.environment:InstructionsEnv",
+    vector_entry_point="arm2d.worlds.environment:InstructionsVectorEnv",
 )

@@ -23,7 +23,7 @@ from arm2d import (
 )
 from tests.arm2d.test_kernel import ALTERNATIVES, genotypes_of
 
-EXAMPLE = Path(__file__).parents[2] / "docs" / "examples" / "by_hand.py"
+EXAMPLE = Path(__file__).parents[3] / "docs" / "examples" / "by_hand.py"
 TRIALS_PER_ALTERNATIVE = -(-2_000 // len(ALTERNATIVES))
 INSTRUCTIONS = [*Condition.WITH_INDICATE.instructions, *Condition.WITH_IGNORE.instructions[6:]]
 

@@ -6,7 +6,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 from arm2d import NON_EXPERIENCED, Condition, Instruction, Readings
-from arm2d.environment import NAME, asked_instructions
+from arm2d.worlds.environment import NAME, asked_instructions
 
 
 @pytest.mark.parametrize("reward", ["end", "progress"])

@@ -25,6 +25,7 @@ from arm2d.running import arrays_of, empty_outcomes
 from arm2d.trials import Trials, TrialScores
 
 _COLOURS: Final = ("blue", "green", "red")
+# What the 18 inputs of a controller are, I1 to I18, with their ranges.
 INPUT_NAMES: Final = (
     "touch right [0 or 1]",
     "touch left [0 or 1]",

@@ -20,7 +20,7 @@ from arm2d.kernel import exchange
 from arm2d.readings import Readings
 from arm2d.running import record_of
 from arm2d.trials import TrialRecord, Trials, TrialScores, draw_trials
-from arm2d.vector_world import VectorWorld
+from arm2d.worlds.vector_world import VectorWorld
 
 
 class World:
