@@ -3,10 +3,10 @@
 import fcntl
 import os
 import stat
+from pathlib import Path
 
 import pytest
 
-from arm2d import files
 from arm2d.files import (
     LinkError,
     NoFileError,
@@ -103,11 +103,11 @@ def test_links_that_lead_to_each_other_end(shared):
 
 def test_folders_are_made_and_named_in_any_way(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    there = files.Path("one/two/../three")
+    there = Path("one/two/../three")
     for _ in range(2):
         with opened_folder(there, make=True) as folder:
             assert os.path.samestat(os.fstat(folder), (tmp_path / "one" / "three").stat())
-    write_whole(files.Path("here"), b"here")
+    write_whole(Path("here"), b"here")
     assert (tmp_path / "here").read_bytes() == b"here"
     with pytest.raises(NotADirectoryError), opened_folder(tmp_path / "here" / "below", make=True):
         pass
@@ -123,7 +123,7 @@ def test_a_temporary_name_cannot_be_taken_beforehand(shared, thesis, monkeypatch
         seen.append({each for each in os.listdir(shared) if is_temporary(each)} - {".file.tmp"})
         flush(handle)
 
-    monkeypatch.setattr(files.os, "fsync", look)
+    monkeypatch.setattr(os, "fsync", look)
     write_whole(shared / "file", b"one")
     write_whole(shared / "file", b"two")
     first, _, second, _ = seen
@@ -152,7 +152,7 @@ def test_a_writer_taken_for_dead_begins_again(shared, monkeypatch):
             (shared / taken[0]).unlink()
         flush(handle)
 
-    monkeypatch.setattr(files.os, "fsync", take)
+    monkeypatch.setattr(os, "fsync", take)
     write_whole(shared / "file", b"whole")
     assert taken
     assert os.listdir(shared) == ["file"]
@@ -175,7 +175,7 @@ def test_no_more_is_read_than_is_allowed_and_nothing_but_files(shared):
     with pytest.raises(NoFileError, match="larger than 4 bytes"):
         read_file(shared / "file", 4)
     os.mkfifo(shared / "pipe")
-    for path in (shared / "pipe", shared, files.Path("/dev/zero")):
+    for path in (shared / "pipe", shared, Path("/dev/zero")):
         with pytest.raises(NoFileError, match="no regular file"):
             read_file(path, 5)
 
