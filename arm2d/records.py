@@ -10,13 +10,13 @@ import numpy as np
 LONGEST_VALUE: Final = 48
 
 
-def brief(record: Any) -> str:
+def brief(self: Any) -> str:
     """A dataclass on one line, such as `Lineage(generations=[301], genotypes=[301, 84])`.
 
     In the body of a class, `__repr__ = brief` makes it the one that Python shows.
     """
-    shown = (f"{each.name}={_value(getattr(record, each.name))}" for each in fields(record) if each.repr)
-    return f"{type(record).__name__}({', '.join(shown)})"
+    shown = (f"{each.name}={_value(getattr(self, each.name))}" for each in fields(self) if each.repr)
+    return f"{type(self).__name__}({', '.join(shown)})"
 
 
 def _value(value: object) -> str:

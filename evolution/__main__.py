@@ -1,19 +1,17 @@
-"""`python -m evolution` is `wordarm`."""
+"""`python -m evolution` is `wordarm`, which begins here: Ctrl-C is answered before anything is imported."""
 
 import sys
 
-from evolution.answers import answer
-
 
 def main() -> int:
-    """Load the command line and run it, both as `answer` does: Ctrl-C may come at any moment."""
-
-    def load_and_run() -> int:
+    """Run a command and return its exit code."""
+    try:
         from evolution.cli import main as command_line
 
         return command_line()
-
-    return answer(load_and_run)
+    except KeyboardInterrupt:
+        sys.stderr.write("wordarm: stopped by Ctrl-C\n")
+        return 130
 
 
 if __name__ == "__main__":

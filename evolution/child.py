@@ -58,7 +58,7 @@ def resolve(text: str) -> Function:
     function = getattr(import_module(module), name, None) if module.split(".")[0] == "evolution" else None
     if not callable(function):
         raise ValueError(f"{text!r} is no function of ours; expected evolution.<module>:<function>")
-    return function
+    return function  # pyright: ignore[reportReturnType] - an exit code, or its caller finds out
 
 
 def perform(function: str, arguments: Mapping[str, Any]) -> int:

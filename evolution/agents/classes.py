@@ -118,7 +118,7 @@ def read_observation(run: RunFolder, sampling: Sampling = Sampling()) -> Observa
         ValueError: If nothing was.
         DamagedFileError: If the file is damaged.
     """
-    path, next_move = observation_path(run, sampling), f"wordarm classes {run.path}"
+    path, next_move = observation_path(run, sampling), f"wordarm behaviour {run.path} --classes"
     if not path.exists():
         raise ValueError(f"{path} is missing; go on with: {next_move}")
     try:

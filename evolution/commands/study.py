@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from tyro.conf import Positional
+from tyro.conf import Positional, arg
 
 from evolution.answers import BAD_INPUT, INTERRUPTED
 
@@ -25,7 +25,7 @@ class StudyCommand:
     Repeat the command to go on; what is done is not done again. Ctrl-C loses nothing.
     """
 
-    name: Positional[Literal["readings"]]
+    name: Annotated[Positional[Literal["readings"]], arg(metavar="STUDY")]
     """The study: readings, what the paper leaves open (docs/readings.md)."""
 
     part: Literal["screening", "finalists", "around", "confirmation"] = "screening"
@@ -106,6 +106,37 @@ class StudyCommand:
             command = f"wordarm study readings --part {among}"
             raise ValueError(f"no run is measured in {folder}; begin with: {command}")
         return [each.runs[0].config.readings for each in nearest(variants)]
+
+
+@dataclass(frozen=True)
+class Measure:
+    """Say by which numbers a study compares a run: plateau, first solution, Table II's top category.
+
+    Of the late generations every tenth is tested; `wordarm postevaluate` tests all of them.
+    """
+
+    run_folder: Annotated[Positional[Path], arg(metavar="RUN")]
+    """Folder of a finished run."""
+
+    def run(self) -> int:
+        """Measure, keep what was simulated beside the run, and print."""
+        from evolution.agents.subtasks import SUBTASKS
+        from evolution.runs.folder import RunFolder
+        from evolution.runs.lock import locked
+        from evolution.study.measures import measure
+
+        run = RunFolder.open(self.run_folder)
+        with locked(run.path):
+            found = measure(run)
+        first = found.first_solved if found.first_solved >= 0 else "never"
+        print(f"plateau of the best fitness: {found.plateau:.3f}")
+        print(f"first generation in which one genotype carried out all trials: {first}")
+        print(f"late generations in which one did: {100 * found.solved_late:.1f} %")
+        for name, share in zip(SUBTASKS, found.top_shares, strict=True):
+            print(f"late agents in category 10 of sub-task {name}: {100 * share:.1f} %")
+        for kind, share in found.class_shares.items():
+            print(f"{kind} agents: {100 * share:.1f} %")
+        return 0
 
 
 def _plan(part: Part, folder: Path) -> Plan:

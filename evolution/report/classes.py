@@ -1,4 +1,4 @@
-"""Behaviour by class as files, and for the report; everything is read from what `wordarm classes` kept."""
+"""Behaviour by class as files, and for the report; everything is read from what `wordarm behaviour` kept."""
 
 from __future__ import annotations
 

@@ -157,7 +157,7 @@ class RunFolder:
         try:
             yield
         except DamagedFileError as error:
-            next_move = f"put it right with: wordarm repair {self.path}"
+            next_move = f"put it right with: wordarm verify {self.path} --repair"
             raise DamagedFileError(path, error.found, next_move) from None
 
     def write_arrays(self, path: Path, arrays: dict[str, NDArray]) -> None:
@@ -169,7 +169,8 @@ class RunFolder:
         return DamagedFileError(
             self.part_path(span),
             found,
-            f"recompute generations {span.start} to {span.stop - 1} with: wordarm repair {self.path}",
+            f"recompute generations {span.start} to {span.stop - 1} with: "
+            f"wordarm verify {self.path} --repair",
         )
 
 

@@ -103,8 +103,7 @@ def held_elsewhere(folder: Path) -> bool:
         holder, touched = _read(folder / LEASE)
     except OSError:  # no lease of ours
         return False
-    # Nothing being written, the server's clock is unknown; a date far from ours on either side is no sign
-    # of life.
+    # Nothing being written, the clock of the server is unknown; a date far from ours is no sign of life.
     return holder is not None and holder.kernel != this_kernel() and abs(time.time() - touched) < LAPSE
 
 

@@ -46,7 +46,19 @@ def make_folder(path: Path) -> None:
         with opened_folder(path, make=True):
             pass
     except OSError as error:
-        raise OSError(f"{path} cannot be made: {error.strerror}; choose another folder") from None
+        raise OSError(
+            f"{path} cannot be made: {_obstacle(path) or error.strerror}; choose another folder"
+        ) from None
+
+
+def _obstacle(path: Path) -> str | None:
+    """What stands where a folder should be made, if that can be told."""
+    for place in (path, *path.parents):
+        if place.is_symlink() and not place.exists():
+            return f"{place} is a link to {place.readlink()}, which does not exist"
+        if place.is_file():
+            return f"{place} is a file"
+    return None
 
 
 def write_atomically(path: Path, data: bytes) -> None:

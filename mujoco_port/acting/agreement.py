@@ -21,18 +21,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
-from arm2d.compiling import sources_digest
 from arm2d.files import handle_to_append, read_file, write_whole
 from arm2d.records import brief
+from arm2d.sources import sources_digest
 from models.robots import get_robot
 
 Loop = Literal["open", "delayed", "geometric", "camera"]
 AREAS: Final = ("right", "left")
 MARK: Final = "# "
 LARGEST: Final = 256 * 2**20  # [bytes], a million trials
-SAFE_PATH: Final = "PYTHONSAFEPATH"
 # Whose code decides what becomes of a trial in either world.
 PACKAGES: Final = ("arm2d", "models", "mujoco_port")
+SAFE_PATH: Final = "PYTHONSAFEPATH"
 
 
 @dataclass(frozen=True)

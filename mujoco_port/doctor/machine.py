@@ -15,7 +15,17 @@ from mujoco_port.doctor.findings import Finding, State
 TOPIC: Final = "machine"
 CGROUP_LIMIT: Final = Path("/sys/fs/cgroup/cpu.max")
 SCARCE_BYTES, TOO_LITTLE_BYTES = 1e9, 5e7  # the paper's twenty runs take 0.4 GB, a video some MB
-CACHE: Final = "from arm2d.compiling import cache_folder; print(cache_folder() or '')"
+CACHE: Final = """
+from arm2d.cache import damaged_files, find_place
+place = find_place()
+print("; ".join(place.refusals))
+print(place.folder or "")
+print(len(damaged_files(place.folder)) if place.folder else 0)
+import arm2d.running
+"""
+CACHE_MOVE: Final = (
+    "export NUMBA_CACHE_DIR=... to a folder of your own on a disk with room, that nobody else can change"
+)
 ENCODER: Final = """
 import sys
 from arm2d.films import NoEncoderError, find_encoder
@@ -61,17 +71,18 @@ def cache() -> Finding:
         return Finding(
             TOPIC, "compiled code", State.MISSING, asked.reason, "mend the packages named above first"
         )
-    if folder := asked.lines[-1]:
-        warm = any(Path(folder).rglob("*.nbi"))
-        state = "filled" if warm else "empty, the first command compiles for some 10 s"
-        return Finding(TOPIC, "compiled code", State.WORKS, f"{folder} ({state})")
-    return Finding(
-        TOPIC,
-        "compiled code",
-        State.NOTE,
-        "no cache folder can be written to, so every process compiles anew, some 10 s each",
-        'export NUMBA_CACHE_DIR="$PWD/.numba", or another folder that can be written to',
-    )
+    refusals, folder, damaged = asked.lines[-3:]
+    if not folder:
+        text = f"{refusals}, so every process compiles anew, some 10 s each"
+        return Finding(TOPIC, "compiled code", State.NOTE, text, CACHE_MOVE)
+    warm = any(Path(folder).rglob("*.nbi"))
+    state = "filled" if warm else "empty, the first command compiles for some 10 s"
+    if damaged != "0":
+        state += f", {damaged} damaged, to be compiled again when needed"
+    if refusals:
+        text = f"{refusals}; {folder} takes its place ({state})"
+        return Finding(TOPIC, "compiled code", State.NOTE, text, CACHE_MOVE)
+    return Finding(TOPIC, "compiled code", State.WORKS, f"{folder} ({state})")
 
 
 def disk(folder: Path) -> Finding:

@@ -135,6 +135,7 @@ def works(back_end: str, without: tuple[str, ...] = ()) -> bool:
     variables = {name: value for name, value in os.environ.items() if name not in without}
     try:
         probe = subprocess.run(  # noqa: S603 - our own interpreter and text
+            # -P: what lies in the current folder must not be taken for a library.
             [sys.executable, "-P", "-c", PROBE],
             env={**variables, **probe_environment(back_end)},
             stdin=subprocess.DEVNULL,

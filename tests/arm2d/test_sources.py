@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from arm2d.compiling import source_files, sources_digest
+from arm2d.sources import source_files, sources_digest
 
 ROOT = Path(__file__).parents[2]
-DIGEST = "import sys; from arm2d.compiling import sources_digest; print(sources_digest(*sys.argv[1:]))"
+DIGEST = "import sys; from arm2d.sources import sources_digest; print(sources_digest(*sys.argv[1:]))"
 FINGERPRINTS = f"""
 {DIGEST}
 from arm2d.compiling import cache_folder

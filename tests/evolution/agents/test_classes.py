@@ -88,7 +88,7 @@ def test_damaged_observation_is_named_with_the_command_that_repeats_it(classed):
     observe(classed, TINY)
     path = observation_path(classed, TINY)
     path.write_bytes(path.read_bytes()[:-70])
-    with pytest.raises(DamagedFileError, match="remove it and repeat: wordarm classes"):
+    with pytest.raises(DamagedFileError, match=r"remove it and repeat: wordarm behaviour .* --classes"):
         observe(classed, TINY)
 
 
@@ -130,9 +130,9 @@ def test_no_class_no_figure(tested):
 
 
 def test_command_names_what_cannot_be_observed(finished_run, capsys):
-    assert main(["classes", str(finished_run)]) == 2
+    assert main(["behaviour", str(finished_run), "--classes"]) == 2
     captured = capsys.readouterr()
     assert "with-indicate, seed 11: left out, not post-evaluated; go on with: wordarm post" in captured.out
     assert captured.err.count("\n") == 1
-    assert main(["classes", str(finished_run), "--agents=0"]) == 2
+    assert main(["behaviour", str(finished_run), "--classes", "--agents=0"]) == 2
     assert "asked for 0 agents; there must be at least 1" in capsys.readouterr().err

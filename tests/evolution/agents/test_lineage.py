@@ -87,7 +87,9 @@ def test_a_history_that_was_not_bred_is_refused(run_copy):
     path = folder.part_path(folder.spans[1])
     arrays = read_arrays(path)
     write_arrays(path, {**arrays, "parents": (arrays["parents"] + 1).astype(np.int16) % 10})
-    with pytest.raises(DamagedFileError, match="recompute generations 100 to 199 with: wordarm repair"):
+    with pytest.raises(
+        DamagedFileError, match=r"recompute generations 100 to 199 with: wordarm verify .* --repair"
+    ):
         trace_lineage(folder)
 
 

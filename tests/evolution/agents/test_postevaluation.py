@@ -70,7 +70,9 @@ def test_damaged_part_is_named_with_the_command_that_recomputes_it(experiment, t
     copy = RunFolder.open(shutil.copytree(run.path, tmp_path / "copy"))
     path = part_path(copy, late_spans(copy)[0])
     path.write_bytes(path.read_bytes()[:-100])
-    with pytest.raises(DamagedFileError, match=r"is damaged .* put it right with: wordarm repair"):
+    with pytest.raises(
+        DamagedFileError, match=r"is damaged .* put it right with: wordarm verify .* --repair"
+    ):
         read_post_evaluation(copy)
 
 
@@ -114,7 +116,7 @@ def test_a_damaged_part_costs_its_run_only_and_is_named(experiment, tmp_path):
     assert results.conditions[Condition.WITH_IGNORE].seeds.tolist() == [2]
     (sentence,) = results.missing
     assert sentence.startswith("with-ignore, seed 1: left out, ")
-    assert f"with: wordarm repair {run.path}" in sentence
+    assert f"with: wordarm verify {run.path} --repair" in sentence
 
 
 def test_an_unreadable_run_and_a_missing_seed_are_named(experiment, tmp_path):

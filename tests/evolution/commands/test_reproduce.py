@@ -85,7 +85,7 @@ def test_stopped_it_ends_its_workers_and_goes_on_with_the_same_command(reproduce
 
 @pytest.mark.slow
 def test_tortured_it_ends_with_the_bits_of_the_undisturbed_one(reproduced, tmp_path):
-    """The short form of `wordarm torture`: refused, killed, damaged, repaired, compared."""
+    """The short form of `wordarm doctor --torture`: refused, killed, damaged, repaired, compared."""
     small = Settings(population=10, elites=2, parents=5, generations=230)
     tally = torture(Torture(tmp_path, kills=8, settings=small), print, reproduced[0])
     assert tally.kills == 8
@@ -193,7 +193,7 @@ def test_a_damaged_part_is_told_as_the_state_of_its_run(run_copy):
     (run_copy / "parts" / "gen-000200-000229.npz").write_bytes(b"nothing")
     standing = standing_of(run_copy, config)
     assert standing.state == "damaged"
-    assert "wordarm repair" in standing.damage
+    assert "--repair" in standing.damage
 
 
 def test_what_is_left_is_shared_by_the_processes():

@@ -66,7 +66,7 @@ def test_no_agent_of_a_class_is_no_share_rather_than_nought(results):
 
 def test_command_writes_a_table_and_a_figure(experiments, tmp_path, capsys):
     folders = [str(experiments / name) for name in ("default", "larger")]
-    assert main(["compare", *folders, f"--output={tmp_path}"]) == 0
+    assert main(["analyse", *folders, f"--output={tmp_path}"]) == 0
     assert {each.name for each in tmp_path.iterdir()} == {
         "comparison.csv", "comparison.png", "comparison.svg",
     }  # fmt: skip
@@ -96,11 +96,12 @@ def test_readings_are_told_where_they_differ():
 def test_bad_input_gets_one_sentence(experiments, tmp_path, capsys):
     one = str(experiments / "default")
     for arguments, words in (
-        ([one], "asked to compare 1 experiment; give at least two folders"),
+        ([], "no experiment is named; give its folder, such as runs/default"),
         ([one, one], "is given twice; give different experiments"),
         ([one, str(tmp_path)], "holds no runs"),
+        ([one, str(tmp_path), "--ship=x"], "--ship takes the agents of one experiment; name one"),
     ):
-        assert main(["compare", *arguments, f"--output={tmp_path / 'new'}"]) == 2
+        assert main(["analyse", *arguments, f"--output={tmp_path / 'new'}"]) == 2
         captured = capsys.readouterr()
         assert words in captured.err
         assert captured.err.count("\n") == 1
@@ -111,7 +112,7 @@ def test_an_experiment_without_results_stands_empty_and_is_named(experiments, tm
     bare = shutil.copytree(experiments / "larger", tmp_path / "bare")
     shutil.rmtree(bare / "with-indicate" / "seed-0001" / "postevaluation")
     flags = [str(experiments / "larger"), str(bare), f"--output={tmp_path / 'out'}"]
-    assert main(["compare", *flags]) == 0
+    assert main(["analyse", *flags]) == 0
     assert "bare: with-indicate, seed 1: left out, not post-evaluated" in capsys.readouterr().out
     (by_name,) = by_condition({"bare": analyse(open_experiment(bare))}).values()
     assert np.isnan(by_name["bare"][0].ours)

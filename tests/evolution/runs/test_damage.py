@@ -36,9 +36,8 @@ def empty(path):
 def test_a_damaged_part_is_named_with_the_command_that_repairs(run_copy, part, damage):
     damage(run_copy / "parts" / part)
     first, last = int(part[4:10]), int(part[11:17])
-    sentence = (
-        rf"{part} is damaged .*; recompute generations {first} to {last} with: wordarm repair {run_copy}"
-    )
+    command = f"wordarm verify {run_copy} --repair"
+    sentence = f"{part} is damaged .*; recompute generations {first} to {last} with: {command}"
     with pytest.raises(DamagedFileError, match=sentence):
         evolve(run_copy, SMALL)
     with pytest.raises(DamagedFileError, match=sentence):

@@ -44,7 +44,7 @@ def test_a_lease_is_there_while_it_is_held_and_gone_after_it(tmp_path):
 def test_a_run_that_is_alive_on_another_machine_is_refused_and_left_alone(run_copy, capsys):
     leave(run_copy)
     before = (run_copy / LEASE).read_bytes()
-    assert main(["repair", str(run_copy)]) == 2
+    assert main(["verify", str(run_copy), "--repair"]) == 2
     assert f"process 7 on node12 works on {run_copy}" in capsys.readouterr().err
     assert (run_copy / LEASE).read_bytes() == before
     assert is_held(run_copy)

@@ -1,4 +1,4 @@
-"""What `wordarm torture` is made of; that an experiment survives it stands in test_reproduce.py."""
+"""What `wordarm doctor --torture` is made of; that an experiment survives it stands in test_reproduce.py."""
 
 import os
 import random

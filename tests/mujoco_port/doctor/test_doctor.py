@@ -198,6 +198,18 @@ for each in (cache(), encoder()):
     assert ffmpeg == ["missing", "ffmpeg", "unset IMAGEIO_FFMPEG_EXE"]
 
 
+def test_damaged_files_among_compiled_code_are_counted(tmp_path):
+    code = "from mujoco_port.doctor.machine import cache\nprint(cache().state.value, cache().text)"
+    told = run(["-c", code], NUMBA_CACHE_DIR=str(tmp_path)).stdout
+    assert told.startswith(f"ok {tmp_path}")
+    assert told.endswith(" (empty, the first command compiles for some 10 s)\n")
+    folder = next((tmp_path / "wordarm").iterdir())
+    (folder / "some.nbi").write_bytes(b"")
+    (folder / "some.1.nbc").write_bytes(b"no machine code")
+    told = run(["-c", code], NUMBA_CACHE_DIR=str(tmp_path)).stdout
+    assert told == f"ok {folder} (filled, 2 damaged, to be compiled again when needed)\n"
+
+
 @pytest.mark.parametrize(("text", "share"), [("max 100000\n", None), ("150000 100000\n", 1.5), ("", None)])
 def test_a_containers_share_of_the_cores_is_read(tmp_path, text, share):
     (tmp_path / "cpu.max").write_text(text)
