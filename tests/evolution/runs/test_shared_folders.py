@@ -39,7 +39,7 @@ def test_a_run_with_a_link_in_the_place_of_something_of_its_own_is_refused(name,
 
 
 @pytest.mark.parametrize("name", ["lock", "lease", "parts", "checkpoint.npz", "postevaluation"])
-@pytest.mark.parametrize("command", ["repair", "postevaluate", "evaluate", "status"])
+@pytest.mark.parametrize("command", ["verify --repair", "postevaluate", "evaluate", "status"])
 def test_so_is_every_other_command_on_such_a_run(command, name, run_copy, tmp_path, capsys):
     home = tmp_path / "home"
     if (run_copy / name).exists():
@@ -48,7 +48,7 @@ def test_so_is_every_other_command_on_such_a_run(command, name, run_copy, tmp_pa
         home.mkdir()
     before = sorted(tmp_path.rglob("*"))
     (run_copy / name).symlink_to(home)
-    assert main([command, str(run_copy)]) == 2
+    assert main([*command.split(), str(run_copy)]) == 2
     assert f"{run_copy / name} is a symbolic link" in capsys.readouterr().err
     (run_copy / name).unlink()
     assert sorted(tmp_path.rglob("*")) == before
