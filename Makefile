@@ -25,6 +25,7 @@ reproduce: $(READY)  ## the whole paper, from random genotypes to the report in 
 	$(BIN)/wordarm reproduce
 
 test: $(READY)  ## all tests, on all cores
+	@sh scripts/browser.sh
 	$(BIN)/python -m pytest -n auto --dist worksteal
 
 lint: $(READY)  ## style, types, and who imports whom

@@ -22,7 +22,7 @@ from arm2d.sources import sources_digest
 
 SEAL: Final = hashlib.sha256
 N_SEAL: Final = SEAL().digest_size
-# What is written to see whether there is room, in bytes: an index of Numba's is smaller.
+# What is written to see whether there is room, in bytes: as much as the code of a function takes.
 PROBE: Final = bytes(64 * 1024)
 
 
@@ -79,6 +79,16 @@ def damaged_files(folder: Path) -> list[Path]:
     """The files of a cache that are not as they were written; they are made again when they are needed."""
     kept = [path for path in sorted(folder.rglob("*")) if path.suffix in (".nbi", ".nbc")]
     return [path for path in kept if unsealed(path) is None]
+
+
+def lack_of_room(folder: Path) -> str:
+    """Why nothing more can be kept in a folder; nothing if there is room."""
+    try:
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(PROBE)
+    except OSError as error:
+        return str(error.strerror)
+    return ""
 
 
 def sealed(content: bytes) -> bytes:
@@ -172,6 +182,6 @@ def _private_groups() -> set[int]:
 
 
 def _try_to_write(folder: Path) -> None:
-    """Write and remove a file: a right to write is not yet room."""
-    with tempfile.TemporaryFile(dir=folder) as file:
-        file.write(PROBE)
+    """Make and remove an empty file. Whether there is room does not matter here: what is kept can be read."""
+    with tempfile.TemporaryFile(dir=folder):
+        pass

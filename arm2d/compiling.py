@@ -92,7 +92,7 @@ class _SealedCache(FunctionCache):
             super().save_overload(sig, data)
         except OSError as error:
             warnings.warn(
-                f"compiled code: {self._cache_path} cannot be written to ({error.strerror}); "
+                f"compiled code: {Path(self._cache_path).parent} cannot be written to ({error.strerror}); "
                 "every process compiles what is missing there",
                 CacheWarning,
                 stacklevel=1,

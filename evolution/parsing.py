@@ -90,8 +90,8 @@ def nearest(word: str, among: Sequence[str]) -> str | None:
     return next(iter(get_close_matches(word, among, n=1)), None)
 
 
-def _parsed(kind: type[T], arguments: Sequence[str], prog: str, default: T | None) -> T:
-    parsed: T = tyro.cli(  # pyright: ignore[reportAssignmentType]
+def _parsed(kind: type[T], arguments: Sequence[str], prog: str, default: Any) -> T:
+    return tyro.cli(
         kind,
         prog=prog,
         args=list(arguments),
@@ -99,7 +99,6 @@ def _parsed(kind: type[T], arguments: Sequence[str], prog: str, default: T | Non
         config=(DisallowNone, FlagCreatePairsOff),
         registry=REGISTRY,
     )
-    return parsed
 
 
 def _width() -> int:

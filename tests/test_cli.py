@@ -174,7 +174,10 @@ def test_a_sound_run_needs_no_repair(run, capsys):
         (["evolve", "--readings.object-radius=20"], "reading object_radius = 20 must lie in [0.1, 11.8]"),
         (["evolve", "--readings.object-radius=nan"], "reading object_radius = nan must lie in"),
         (["evolve", "--output={file}/run"], "file is a file; choose another folder"),
-        (["evolve", "--output={link}"], "link is a link to nowhere, which does not exist; choose another"),
+        (
+            ["evolve", "--output={link}"],
+            "it is a link to nowhere, which does not exist; choose another folder",
+        ),
         (
             ["evaluate", "best-generaliser", "--trials-per-area=1", "--output={link}/x"],
             "is a link to nowhere",

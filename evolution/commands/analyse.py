@@ -149,7 +149,7 @@ def _named(paths: tuple[Path, ...]) -> dict[str, Path]:
 
 @dataclass(frozen=True)
 class Report:
-    """Write one self-contained HTML page: the result, published numbers beside ours, figures, recordings."""
+    """Write one self-contained HTML page: result, best agents alive, published numbers and ours, figures."""
 
     experiment: Annotated[Positional[Path], arg(metavar="EXPERIMENT")]
     """Folder of an experiment, or of one run; what is missing is named on the page."""

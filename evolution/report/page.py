@@ -6,7 +6,6 @@ All numbers come from `evolution.results.analysis`; here they become text, table
 
 from __future__ import annotations
 
-import json
 import shlex
 from collections.abc import Iterable
 from dataclasses import replace
@@ -14,22 +13,18 @@ from pathlib import Path
 from typing import Any, Final
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from markupsafe import Markup
-from matplotlib.colors import to_hex
 
-from arm2d import NON_EXPERIENCED
-from arm2d.drawing import OBJECT_COLOURS
 from evolution.agents.classes import Sampling
 from evolution.agents.postevaluation import TRIALS
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.experiments.stage_times import stage_times
 from evolution.experiments.standing import standing_of
 from evolution.figures.paper import all_figures
-from evolution.figures.run import SUCCESS_MAP
+from evolution.player.agents import described
+from evolution.player.page import as_json, player_parts
 from evolution.report.classes import behaviours_kept, class_figures
 from evolution.report.configuration import readings_rows, settings_rows, versions_rows
 from evolution.report.pictures import figure_uri, file_uri
-from evolution.report.recordings import recordings_of
 from evolution.report.report_tables import category_tables, comparison_rows, departures_in_size, run_rows
 from evolution.report.safety import content_policy, link_to
 from evolution.report.sentences import result_sentences, standing_of_best
@@ -38,6 +33,7 @@ from evolution.results.generaliser_text import generalisers_sentence
 from evolution.results.notable import Agent, best_agent
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES
+from evolution.runs.sources import find_source
 from evolution.runs.storage import make_folder, write_atomically
 
 TEMPLATE: Final = "template.html"
@@ -75,8 +71,9 @@ def render(results: Results, home: Path) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    policy = content_policy(Path(__file__).with_name(TEMPLATE).read_text(encoding="utf-8"))
-    return environment.get_template(TEMPLATE).render(policy=policy, **_content(results, home))
+    template, player = environment.get_template(TEMPLATE), player_parts()
+    policy = content_policy(Path(str(template.filename)).read_text(encoding="utf-8"), player["script"])
+    return template.render(policy=policy, player=player, **_content(results, home))
 
 
 def _content(results: Results, home: Path) -> dict[str, Any]:
@@ -103,7 +100,7 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "figures": {name: figure_uri(figure) for name, figure in figures.items()},
         "agents": agents,
         **_classes(shown),
-        "recordings": _embedded([each["recordings"] for each in agents]),
+        "players": as_json([each["player"] for each in agents]),
         "trials": TRIALS,
         "films": list(_films(experiment.path, home)),
         "settings": settings_rows(results),
@@ -114,26 +111,29 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
 
 
 def _agent(each: ConditionResults, agent: Agent, experiment: Path) -> dict[str, Any]:
-    """The best agent of a condition: its heat map, its recordings, and figures that lie beside its run."""
-    instructions = each.condition.instructions
+    """The best agent of a condition: as it lives in the page, and figures that lie beside its run."""
     figures, refused = _figures_beside(agent)
-    cells = [
-        _cell(str(instruction), instruction in NON_EXPERIENCED, int(agent.successes[index]))
-        for index, instruction in enumerate(instructions)
-    ]
     return {
         "condition": TITLES[each.condition],
-        "what": standing_of_best(each),
-        "seed": agent.run.config.seed,
         "generation": agent.generation,
         "rank": agent.rank,
         "source": shlex.quote(str(agent.run.path.relative_to(experiment))),
-        "rows": [cells[start : start + 3] for start in (0, 3, 6)],
-        "objects": [(word.name.capitalize(), colour) for word, colour in OBJECT_COLOURS.items()],
-        "recordings": recordings_of(agent),
+        "player": _player(each, agent),
         "figures": figures,
         "refused": refused,
     }
+
+
+def _player(each: ConditionResults, agent: Agent) -> dict[str, Any]:
+    """What the page's player is told of the agent.
+
+    Raises:
+        ValueError: If the agent's run is damaged.
+    """
+    source = find_source(str(agent.run.path), generation=agent.generation, rank=agent.rank)
+    origin = f"seed {agent.run.config.seed}, generation {agent.generation}, rank {agent.rank}"
+    note = f"The {standing_of_best(each)}: {origin}."
+    return described(source, TITLES[each.condition], note, agent.successes.tolist())
 
 
 def _classes(shown: Results) -> dict[str, Any]:
@@ -145,18 +145,6 @@ def _classes(shown: Results) -> dict[str, Any]:
         "class_figures": [figure_uri(figure) for figure in figures.values()],
         "class_missing": missing,
         "has_classes": some,
-    }
-
-
-def _cell(instruction: str, never_met: bool, successes: int) -> dict[str, Any]:
-    share = successes / TRIALS
-    return {
-        "instruction": instruction,
-        "never_met": never_met,
-        "successes": successes,
-        "percent": f"{100 * share:.0f} %",
-        "colour": to_hex(SUCCESS_MAP(share)),
-        "ink": "#ffffff" if share > 0.55 else "#1a1a1a",
     }
 
 
@@ -176,14 +164,9 @@ def _figures_beside(agent: Agent) -> tuple[list[tuple[str, str]], list[str]]:
 
 def _films(experiment: Path, home: Path) -> Iterable[tuple[str, str]]:
     """(name, relative link) of every film that lies beside the runs; links and unfinished files are none."""
-    for path in sorted([*experiment.glob("videos/*.mp4"), *experiment.glob("*/*/videos/*.mp4")]):
-        if path.name.startswith(".") or path.is_symlink() or path.parent.is_symlink() or not path.is_file():
+    films = [*experiment.glob("videos/[!.]*.mp4"), *experiment.glob("*/*/videos/[!.]*.mp4")]
+    for path in sorted(films):
+        if path.is_symlink() or path.parent.is_symlink() or not path.is_file():
             continue
         parts = [part for part in path.relative_to(experiment).parts[:-1] if part != "videos"]
         yield ", ".join([*parts, path.stem.replace("-", " ")]), link_to(path, home)
-
-
-def _embedded(value: object) -> Markup:
-    """JSON that can stand in a script element, whatever strings it holds."""
-    text = json.dumps(value, separators=(",", ":"))
-    return Markup(text.replace("<", "\\u003c"))  # noqa: S704 - escaped here

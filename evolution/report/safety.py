@@ -15,12 +15,14 @@ from typing import Final
 from urllib.parse import quote
 from xml.parsers import expat
 
-# A page needs nothing from elsewhere but films, which lie beside it.
+# A page needs nothing from elsewhere but films, which lie beside it; its player counts in a worker made of
+# the page's own script.
 POLICY: Final = (
     "default-src 'none'; script-src {scripts}; style-src 'unsafe-inline'; img-src data:; "
-    "media-src 'self' file:; base-uri 'none'; form-action 'none'"
+    "media-src 'self' file:; worker-src blob:; base-uri 'none'; form-action 'none'"
 )
-SCRIPT: Final = re.compile(r"<script>(.*?)</script>", re.DOTALL)
+SCRIPT: Final = re.compile(r"<script(?: id=[^>]*)?>(.*?)</script>", re.DOTALL)
+PLAYER: Final = "{{ player.script }}"
 # What drawings consist of, whoever draws them; no scripts, foreign elements, links or animations.
 ELEMENTS: Final = frozenset((
     "svg", "g", "defs", "style", "path", "use", "rect", "circle", "ellipse", "line", "polyline", "polygon",
@@ -35,9 +37,15 @@ REACHING: Final = re.compile(
 )
 
 
-def content_policy(template: str) -> str:
-    """The policy of a page: no script runs in it but those that stand in its template word for word."""
-    digests = [b64encode(sha256(each.encode()).digest()).decode() for each in SCRIPT.findall(template)]
+def content_policy(template: str, player: str = "") -> str:
+    """The policy of a page: no script runs in it but those of its template, word for word.
+
+    Args:
+        template: Of the page.
+        player: What stands in it for `PLAYER`.
+    """
+    scripts = [each.replace(PLAYER, player) for each in SCRIPT.findall(template)]
+    digests = [b64encode(sha256(each.encode()).digest()).decode() for each in scripts]
     return POLICY.format(scripts=" ".join(f"'sha256-{each}'" for each in digests) or "'none'")
 
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from arm2d import NON_EXPERIENCED, Condition
-from evolution.agents.postevaluation import TRIALS
+from arm2d import Condition
 from evolution.agents.subtasks import AgentClass
 from evolution.report.tables import runs_with_generalisers
 from evolution.results import published
-from evolution.results.notable import best_agent
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES, of, p_value, percent
 
@@ -41,28 +39,16 @@ def _evolution(shown: dict[Condition, ConditionResults]) -> str:
 
 
 def _generalisation(shown: dict[Condition, ConditionResults]) -> str:
-    """Runs with fully compositional agents, and what the best of each condition makes of the two."""
+    """Runs with fully compositional agents; what the best of them make of every instruction is in a map."""
     found = {c: runs_with_generalisers(each) for c, each in shown.items()}
-    best = "; ".join(_best(c, each) for c, each in shown.items())
     paper = f"in the paper in {of(published.RUNS_WITH_GENERALISERS, published.RUNS)} With-Indicate runs"
     if not any(found.values()):
         return (
             "No agent is fully compositional, that is above 75 % on the seven experienced instructions and "
-            f"on both it never met ({paper} some are): {best}."
+            f"on both it never met ({paper} some are)."
         )
     counts = _and(f"{of(n, len(shown[c].runs))} {TITLES[c]} runs" for c, n in found.items())
-    return f"Agents that understand both instructions they never met arise in {counts} ({paper}): {best}."
-
-
-def _best(condition: Condition, each: ConditionResults) -> str:
-    agent = best_agent(each)
-    if agent is None:
-        return f"{TITLES[condition]} has no agent"
-    successes = dict(zip(condition.instructions, map(int, agent.successes), strict=True))
-    done = _and(f"{instruction} in {successes[instruction]}" for instruction in NON_EXPERIENCED)
-    known = min(successes[instruction] for instruction in condition.experienced)
-    others = f"each of the other seven in at least {known}" if known else "one of the other seven in none"
-    return f"the best {TITLES[condition]} agent carries out {done} of {TRIALS} trials, and {others}"
+    return f"Agents that understand both instructions they never met arise in {counts} ({paper})."
 
 
 def _difference(results: Results, shown: dict[Condition, ConditionResults]) -> str:

@@ -55,10 +55,14 @@ def _obstacle(path: Path) -> str | None:
     """What stands where a folder should be made, if that can be told."""
     for place in (path, *path.parents):
         if place.is_symlink() and not place.exists():
-            return f"{place} is a link to {place.readlink()}, which does not exist"
+            return f"{_name(place, path)} is a link to {place.readlink()}, which does not exist"
         if place.is_file():
-            return f"{place} is a file"
+            return f"{_name(place, path)} is a file"
     return None
+
+
+def _name(place: Path, path: Path) -> str:
+    return "it" if place == path else str(place)
 
 
 def write_atomically(path: Path, data: bytes) -> None:

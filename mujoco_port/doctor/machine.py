@@ -16,11 +16,12 @@ TOPIC: Final = "machine"
 CGROUP_LIMIT: Final = Path("/sys/fs/cgroup/cpu.max")
 SCARCE_BYTES, TOO_LITTLE_BYTES = 1e9, 5e7  # the paper's twenty runs take 0.4 GB, a video some MB
 CACHE: Final = """
-from arm2d.cache import damaged_files, find_place
+from arm2d.cache import damaged_files, find_place, lack_of_room
 place = find_place()
 print("; ".join(place.refusals))
 print(place.folder or "")
 print(len(damaged_files(place.folder)) if place.folder else 0)
+print(lack_of_room(place.folder) if place.folder else "")
 import arm2d.running
 """
 CACHE_MOVE: Final = (
@@ -71,7 +72,7 @@ def cache() -> Finding:
         return Finding(
             TOPIC, "compiled code", State.MISSING, asked.reason, "mend the packages named above first"
         )
-    refusals, folder, damaged = asked.lines[-3:]
+    refusals, folder, damaged, lack = asked.lines[-4:]
     if not folder:
         text = f"{refusals}, so every process compiles anew, some 10 s each"
         return Finding(TOPIC, "compiled code", State.NOTE, text, CACHE_MOVE)
@@ -79,6 +80,9 @@ def cache() -> Finding:
     state = "filled" if warm else "empty, the first command compiles for some 10 s"
     if damaged != "0":
         state += f", {damaged} damaged, to be compiled again when needed"
+    if lack:
+        text = f"{folder} ({state}) takes no more: {lack}; what is missing there is compiled by every process"
+        return Finding(TOPIC, "compiled code", State.NOTE, text, "make room there, or " + CACHE_MOVE)
     if refusals:
         text = f"{refusals}; {folder} takes its place ({state})"
         return Finding(TOPIC, "compiled code", State.NOTE, text, CACHE_MOVE)

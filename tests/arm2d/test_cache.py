@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from arm2d import compiling
-from arm2d.cache import CacheWarning, cache_folder, damaged_files, find_place, sealed, unsealed
+from arm2d.cache import CacheWarning, cache_folder, damaged_files, find_place, lack_of_room, sealed, unsealed
 
 AS_ROOT = pytest.mark.skipif(os.geteuid() != 0, reason="only root can take another user's part")
 SOMEBODY = 54321
@@ -146,15 +146,15 @@ def test_without_a_home_there_is_a_place_among_temporary_files(places, monkeypat
     refused(places, "no home folder is known, nor NUMBA_CACHE_DIR set")
 
 
-def test_a_full_disk_is_no_place(places):
-    limit = resource.getrlimit(resource.RLIMIT_FSIZE)
+def test_a_full_disk_is_told_and_what_it_holds_still_used(places):
+    folder, limit = find_place().folder, resource.getrlimit(resource.RLIMIT_FSIZE)
+    assert lack_of_room(folder) == ""
     resource.setrlimit(resource.RLIMIT_FSIZE, (1000, limit[1]))
     try:
-        place = find_place()
+        assert lack_of_room(folder) == "File too large"
+        assert find_place().folder == folder
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limit)
-    assert place.folder is None
-    assert "cannot be used (File too large)" in place.note
 
 
 def test_a_seal_shows_every_damage(tmp_path):

@@ -138,7 +138,7 @@ def test_a_preset_is_the_start_of_its_readings():
         (["--generations=0"], "setting generations = 0 must lie in [1, 1000000]"),
         (["--readings.object-radius=20"], "reading object_radius = 20 must lie in"),
         (["--preset=mine"], "unknown preset of readings 'mine'; there are default, printed"),
-        (["--output={file}"], "File exists; choose another folder"),
+        (["--output={file}"], "cannot be made: it is a file; choose another folder"),
     ],
 )
 def test_bad_input_gets_one_sentence_before_anything_starts(arguments, sentence, tmp_path, capsys):

@@ -46,10 +46,8 @@ def test_a_lock_that_is_a_link_is_not_followed(tmp_path):
     (tmp_path / "thesis.txt").write_text("a year's work")
     (tmp_path / "run").mkdir()
     (tmp_path / "run" / LOCK).symlink_to(tmp_path / "thesis.txt")
-    with (
-        pytest.raises(OSError, match="is a symbolic link, which is not followed; remove it"),
-        locked(tmp_path / "run"),
-    ):
+    refusal = "is a symbolic link, which is not followed; remove it"
+    with pytest.raises(OSError, match=refusal), locked(tmp_path / "run"):
         pass
     assert (tmp_path / "thesis.txt").read_text() == "a year's work"
     os.unlink(tmp_path / "run" / LOCK)
