@@ -12,18 +12,20 @@ import os
 import stat
 import tempfile
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
+from importlib.resources import files
+from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Final
-
-from arm2d.sources import sources_digest
 
 SEAL: Final = hashlib.sha256
 N_SEAL: Final = SEAL().digest_size
 # What is written to see whether there is room, in bytes: as much as the code of a function takes.
 PROBE: Final = bytes(64 * 1024)
+# What can change a number: code, and the descriptions of scenes. A template or a picture cannot.
+SOURCES: Final = (".py", ".xml")
 
 
 class CacheWarning(RuntimeWarning):
@@ -126,8 +128,6 @@ def _own_folder(base: Path) -> Path:
     Raises:
         OSError: If it cannot be used, with the reason.
     """
-    # Numba looks only at a function's own file when it decides whether compiled code is still valid, and
-    # would miss a change in a function called from another file.
     folder = base / f"kernel-{sources_digest('arm2d')}"
     _told(lambda: base.parent.mkdir(parents=True, exist_ok=True), base)
     for above in base.parents:
@@ -185,3 +185,28 @@ def _try_to_write(folder: Path) -> None:
     """Make and remove an empty file. Whether there is room does not matter here: what is kept can be read."""
     with tempfile.TemporaryFile(dir=folder):
         pass
+
+
+def sources_digest(*packages: str) -> str:
+    """Twelve hexadecimal digits that change with every source file of these packages, wherever it lies.
+
+    Whoever continues numbers, or runs what was compiled before, has to have the sources they began with.
+    Numba looks only at a function's own file and would miss a change in one that it calls elsewhere.
+    """
+    digest = hashlib.sha256()
+    for package in packages:
+        for place, source in source_files(files(package), package):
+            content = source.read_bytes()
+            digest.update(f"{place} {len(content)}\n".encode())
+            digest.update(content)
+    return digest.hexdigest()[:12]
+
+
+def source_files(folder: Traversable, place: str) -> Iterator[tuple[str, Traversable]]:
+    """(place, file) of each source file in a folder and below it, in alphabetical order."""
+    for each in sorted(folder.iterdir(), key=lambda each: each.name):
+        name = f"{place}/{each.name}"
+        if each.is_dir():
+            yield from source_files(each, name)
+        elif each.name.endswith(SOURCES):
+            yield name, each

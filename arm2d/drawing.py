@@ -16,9 +16,9 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, Wedge
 
 from arm2d import constants as c
+from arm2d.geometry import camera_position
 from arm2d.instructions import ObjectWord
 from arm2d.trials import TrialRecord
-from arm2d.view import camera_position
 
 Shape = TypeVar("Shape", Circle, Wedge)
 

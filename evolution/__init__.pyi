@@ -2,7 +2,6 @@ from .agents.behaviour import Behaviour as Behaviour
 from .agents.behaviour import record_behaviour as record_behaviour
 from .agents.classes import Sampling as Sampling
 from .agents.classes import observe as observe
-from .agents.events import shares_by_event as shares_by_event
 from .agents.innovations import innovations as innovations
 from .agents.lesions import LesionScores as LesionScores
 from .agents.lesions import lesion_scores as lesion_scores
@@ -14,8 +13,9 @@ from .agents.postevaluation import PostEvaluation as PostEvaluation
 from .agents.postevaluation import post_evaluate as post_evaluate
 from .agents.subtasks import AgentClass as AgentClass
 from .agents.subtasks import classify as classify
-from .agents.transition_test import TransitionTest as TransitionTest
-from .agents.transition_test import run_transition_test as run_transition_test
+from .agents.transitions import TransitionTest as TransitionTest
+from .agents.transitions import run_transition_test as run_transition_test
+from .agents.variance import shares_by_event as shares_by_event
 from .experiments.experiment import Experiment as Experiment
 from .experiments.experiment import open_experiment as open_experiment
 from .experiments.grid import read_experiment as read_experiment
@@ -31,10 +31,10 @@ from .figures.generalisers import generalisers_figure as generalisers_figure
 from .figures.lineage import lineage_figure as lineage_figure
 from .figures.neurons import activity_figure as activity_figure
 from .figures.neurons import variance_figure as variance_figure
+from .figures.page import save_figure as save_figure
 from .figures.paper import all_figures as all_figures
 from .figures.run import fitness_curve as fitness_curve
 from .figures.run import heat_map as heat_map
-from .figures.run import save_figure as save_figure
 from .figures.states import state_space_figure as state_space_figure
 from .library import Agent as Agent
 from .library import Run as Run

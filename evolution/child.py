@@ -55,8 +55,9 @@ def resolve(text: str) -> Function:
         ValueError: If it is none of ours.
     """
     module, _, name = text.partition(":")
-    function = getattr(import_module(module), name, None) if module.split(".")[0] == "evolution" else None
-    if not callable(function):
+    ours = module.split(".")[0] == "evolution"
+    function: Function | None = getattr(import_module(module), name, None) if ours else None
+    if function is None or not callable(function):
         raise ValueError(f"{text!r} is no function of ours; expected evolution.<module>:<function>")
     return function  # pyright: ignore[reportReturnType] - an exit code, or its caller finds out
 

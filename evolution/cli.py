@@ -52,8 +52,6 @@ GROUPS: Final = {
     },
 }
 COMMANDS: Final = {name: entry for group in GROUPS.values() for name, entry in group.items()}
-# Started by other commands only.
-INTERNAL: Final = {"measure": Entry("study:Measure", "")}
 # What became of commands that there were.
 MOVED: Final = {
     "classes": "behaviour EXPERIMENT",
@@ -155,7 +153,7 @@ def _record(name: str) -> type:
     """
     from importlib import import_module
 
-    entry = (COMMANDS | INTERNAL).get(name)
+    entry = COMMANDS.get(name)
     if entry is None:
         raise ValueError(_no_command(name))
     module, record = entry.place.split(":")

@@ -24,11 +24,11 @@ from evolution.agents.behaviour import Behaviour, record_behaviour
 from evolution.agents.lineage import Lineage, trace_lineage
 from evolution.agents.recording import record_instruction
 from evolution.runs import run as loop
+from evolution.runs import sources
 from evolution.runs.folder import CHAMPIONS, RunFolder
 from evolution.runs.history import History
 from evolution.runs.recorded import recorded_history
 from evolution.runs.replay import population_at
-from evolution.runs.sources import Source, find_source
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA, Evaluation, evaluate
 from evolution.search.settings import Settings
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, repr=False)
-class Agent(Source):
+class Agent(sources.Agent):
     """One evolved controller with the world it evolved in; see `find_agent`, `Run.agent`, `Run.champions`.
 
     Attributes:
@@ -49,9 +49,6 @@ class Agent(Source):
         name: The same, fit for a file name.
         folder: The run it was taken from, if it was.
     """
-
-    def __repr__(self) -> str:
-        return f"<Agent: {self.origin}>"
 
     def evaluate(self, *, per_area: int = TRIALS_PER_AREA, trial_seed: int = 0) -> Evaluation:
         """What it makes of all nine instructions: `per_area` fresh trials of each from each start area."""
@@ -185,7 +182,7 @@ class Run(RunFolder):
         from evolution.figures.run import fitness_curve
 
         origin = f"{self.condition}, seed {self.seed}, {self.generations} generations"
-        return fitness_curve(self.history, self.condition, origin)
+        return fitness_curve(self.history, origin)
 
     def _number(self, generation: int) -> int:
         """The number of a generation that may be counted from the end."""
@@ -246,4 +243,4 @@ def find_agent(
         ValueError: If there is no such thing, or it is not what it should be.
     """
     known = Condition.parse(condition) if isinstance(condition, str) else condition
-    return Agent(**vars(find_source(str(text), generation=generation, rank=rank, condition=known)))
+    return Agent(**vars(sources.find_agent(str(text), generation=generation, rank=rank, condition=known)))

@@ -11,7 +11,7 @@ import pytest
 
 from arm2d import Readings
 from arm2d.readings import choices
-from evolution.cli import COMMANDS, GROUPS, INTERNAL, MOVED, main, overview, parse
+from evolution.cli import COMMANDS, GROUPS, MOVED, main, overview, parse
 from evolution.commands.evolve import Evolve
 from evolution.runs.folder import RunFolder
 
@@ -276,7 +276,7 @@ def test_what_commands_became_is_understood():
 
 
 @pytest.mark.parametrize("columns", ["1", "60", "80", "300"])
-@pytest.mark.parametrize("name", [*COMMANDS, *INTERNAL])
+@pytest.mark.parametrize("name", COMMANDS)
 def test_help_of_a_command_fits_and_says_nothing_of_what_is_not_given(name, columns, monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", columns)
     with pytest.raises(SystemExit) as end:

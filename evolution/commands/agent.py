@@ -12,7 +12,7 @@ from arm2d import Condition
 
 if TYPE_CHECKING:
     from evolution.runs.folder import RunFolder
-    from evolution.runs.sources import Source
+    from evolution.runs.sources import Agent
     from evolution.search.evaluation import Evaluation
 
 
@@ -32,12 +32,12 @@ class AgentCommand:
     condition: str | None = None
     """Condition of a bare genotype file: with-indicate (the default) or with-ignore."""
 
-    def find_agent(self) -> Source:
+    def find_agent(self) -> Agent:
         """The agent's genotype and its world."""
-        from evolution.runs.sources import find_source
+        from evolution.runs.sources import find_agent
 
         condition = None if self.condition is None else Condition.parse(self.condition)
-        return find_source(self.source, generation=self.generation, rank=self.rank, condition=condition)
+        return find_agent(self.source, generation=self.generation, rank=self.rank, condition=condition)
 
 
 @dataclass(frozen=True)
@@ -78,15 +78,16 @@ class Evaluate(AgentCommand):
         return 0
 
 
-def _write(source: Source, result: Evaluation, folder: Path) -> list[Path]:
+def _write(source: Agent, result: Evaluation, folder: Path) -> list[Path]:
     """Write figures and tables; their paths."""
-    from evolution.figures.run import heat_map, save_figure
-    from evolution.report.evaluation import to_csv, to_json
+    from evolution.figures.page import save_figure
+    from evolution.figures.run import heat_map
+    from evolution.report.evaluation import instruction_table, to_json
     from evolution.runs.storage import make_folder, write_atomically
 
     make_folder(folder)
     paths = save_figure(heat_map(result, source.origin), folder / f"{source.name}-heat-map")
-    for suffix, text in ((".csv", to_csv(result)), (".json", to_json(result, source))):
+    for suffix, text in ((".csv", instruction_table(result).to_csv()), (".json", to_json(result, source))):
         paths.append(folder / f"{source.name}{suffix}")
         write_atomically(paths[-1], text.encode())
     if source.folder:
@@ -96,10 +97,11 @@ def _write(source: Source, result: Evaluation, folder: Path) -> list[Path]:
 
 def _write_fitness_curve(run_folder: RunFolder, output: Path) -> list[Path]:
     """Write fitness.png and fitness.svg; their paths."""
-    from evolution.figures.run import fitness_curve, save_figure
+    from evolution.figures.page import save_figure
+    from evolution.figures.run import fitness_curve
     from evolution.runs.recorded import recorded_history
 
     history = recorded_history(run_folder)
     config = run_folder.config
     origin = f"{config.condition}, seed {config.seed}, {len(history)} generations"
-    return save_figure(fitness_curve(history, config.condition, origin), output / "fitness")
+    return save_figure(fitness_curve(history, origin), output / "fitness")

@@ -27,9 +27,10 @@ class PostEvaluate:
         """Post-evaluate every finished run."""
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-        from evolution.agents.postevaluation import late_spans, post_evaluate
+        from evolution.agents.parts import late_spans
+        from evolution.agents.postevaluation import post_evaluate
         from evolution.agents.solving import solved_trials
-        from evolution.agents.transition_test import run_transition_test
+        from evolution.agents.transitions import run_transition_test
         from evolution.experiments.experiment import open_experiment
         from evolution.experiments.standing import standing_of
         from evolution.runs.lock import locked
@@ -100,7 +101,7 @@ class Analyse:
 def _write(results: Results, output: Path, shipped: Path | None) -> None:
     """Write tables, figures and, if they are asked for, notable agents."""
     from evolution.report.files import summary, write_results
-    from evolution.results.shipping import ship
+    from evolution.results.notable import ship
 
     paths = write_results(results, output)
     if shipped is not None:
@@ -115,15 +116,14 @@ def _compare(results: Mapping[str, Results], output: Path) -> None:
     from rich.console import Console
 
     from evolution.figures.compare import compare_figure
-    from evolution.figures.run import save_figure
-    from evolution.report.comparison import comparison_table
-    from evolution.report.rows import to_csv
-    from evolution.results.key_numbers import comparison_rows, departures
+    from evolution.figures.page import save_figure
+    from evolution.report.comparison import comparison_table, key_number_table
+    from evolution.results.key_numbers import departures
     from evolution.runs.storage import make_folder, write_atomically
 
     console = Console(soft_wrap=True, highlight=False)
     make_folder(output)
-    write_atomically(output / "comparison.csv", to_csv(comparison_rows(results)).encode())
+    write_atomically(output / "comparison.csv", key_number_table(results).to_csv().encode())
     print(output / "comparison.csv")
     for path in save_figure(compare_figure(results), output / "comparison"):
         print(path)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from evolution.agents.behaviour import Behaviour
     from evolution.agents.lesions import LesionScores
     from evolution.agents.variance import VarianceShares
-    from evolution.runs.sources import Source
+    from evolution.runs.sources import Agent
 
 
 # Trials of each instruction from each start area: of one agent, and of each agent of a class.
@@ -86,8 +86,8 @@ class BehaviourCommand(AgentCommand):
         from rich.console import Console
 
         from evolution.agents.behaviour import record_behaviour
-        from evolution.agents.events import shares_by_event
         from evolution.agents.lesions import lesion_scores
+        from evolution.agents.variance import shares_by_event
 
         source = self.find_agent()
         world = (source.genotype, source.condition, source.readings)
@@ -114,7 +114,7 @@ def _is_experiment(path: Path) -> bool:
 
 
 def _write(
-    source: Source,
+    source: Agent,
     behaviour: Behaviour,
     lesions: LesionScores,
     shares: dict[str, VarianceShares],
@@ -123,7 +123,7 @@ def _write(
     """Write figures and arrays; their paths."""
     from evolution.figures.behaviour import lesions_figure, trajectories_figure
     from evolution.figures.neurons import activity_figure, variance_figure
-    from evolution.figures.run import save_figure
+    from evolution.figures.page import save_figure
     from evolution.figures.states import state_space_figure
     from evolution.runs.storage import make_folder, write_arrays
 
@@ -152,7 +152,7 @@ def _shares_table(shares: dict[str, VarianceShares], origin: str) -> Table:
     """Mean shares of variance before and after first sight, and after first touch."""
     from rich.table import Table
 
-    from evolution.agents.events import WINDOWS
+    from evolution.agents.variance import WINDOWS
 
     table = Table("share of the neurons' variance", "object word", "action word", "both", title=origin)
     for name, (event, start, stop) in WINDOWS.items():

@@ -13,7 +13,7 @@ from evolution.commands.agent import AgentCommand
 
 if TYPE_CHECKING:
     from arm2d import TrialRecord
-    from evolution.runs.sources import Source
+    from evolution.runs.sources import Agent
 
 ALL: Final = "all"
 
@@ -72,7 +72,7 @@ class Port(AgentCommand):
             self._show(source, instruction)
         return 0
 
-    def _show(self, source: Source, instruction: Instruction) -> None:
+    def _show(self, source: Agent, instruction: Instruction) -> None:
         """One instruction."""
         from mujoco_port.film.physical_port import port_physical_trial
         from mujoco_port.film.port import port_trial
@@ -94,7 +94,7 @@ class Port(AgentCommand):
         if self.video:
             print(output)
 
-    def _show_all(self, source: Source) -> None:
+    def _show_all(self, source: Agent) -> None:
         """All nine instructions in one video, and its last picture."""
         from mujoco_port.film.physical_port import port_physical_gallery
         from mujoco_port.film.port import port_gallery
@@ -121,13 +121,13 @@ class Port(AgentCommand):
         for path in paths:
             print(path)
 
-    def _record(self, source: Source, instruction: Instruction) -> TrialRecord:
+    def _record(self, source: Agent, instruction: Instruction) -> TrialRecord:
         """The trial, as the planar arm carries it out."""
         from evolution.agents.recording import record_instruction
 
         return record_instruction(source, instruction, self.start_area, self.trial_seed)
 
-    def _place(self, source: Source, what: str) -> Path:
+    def _place(self, source: Agent, what: str) -> Path:
         """Where the video goes, its folder made; the robot is refused first if it cannot act."""
         from evolution.runs.storage import make_folder
         from mujoco_port.film.names import film_name

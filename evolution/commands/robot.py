@@ -11,7 +11,7 @@ from tyro.conf import Positional, arg
 
 if TYPE_CHECKING:
     from models.robots import Robot
-    from mujoco_port.acting.agreement import Agent
+    from mujoco_port.acting.agreement import Candidate
 
 NOT_CERTIFIED = 1  # exit code
 
@@ -62,7 +62,7 @@ class Agree:
         get_robot(self.robot)
         if "camera" in self.loops:
             choose_back_end()
-        listed = jobs([find_agent(source) for source in self.sources], self.loops, self.starts, self.seed)
+        listed = jobs([candidate(name) for name in self.sources], self.loops, self.starts, self.seed)
         processes = self.processes or len(os.sched_getaffinity(0))
         console = Console()
         counted = list(
@@ -79,14 +79,14 @@ class Agree:
         return 0
 
 
-def find_agent(name: str) -> Agent:
-    """An agent, by what the user calls it."""
-    from evolution.runs.sources import find_source
-    from mujoco_port.acting.agreement import Agent
+def candidate(name: str) -> Candidate:
+    """Whom to try, by what the user calls it."""
+    from evolution.runs.sources import find_agent
+    from mujoco_port.acting.agreement import Candidate
 
-    source = find_source(name)
-    home = "" if source.folder is None else f"{source.condition}/{source.folder.path.name}/"
-    return Agent(home + source.name, source.genotype, source.condition.instructions, source.readings)
+    agent = find_agent(name)
+    home = "" if agent.folder is None else f"{agent.condition}/{agent.folder.path.name}/"
+    return Candidate(home + agent.name, agent.genotype, agent.condition.instructions, agent.readings)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,7 +128,7 @@ class Workspace:
         return self._search(robot) if self.search else self._certify(robot)
 
     def _certify(self, robot: Robot) -> int:
-        from evolution.figures.run import save_figure
+        from evolution.figures.page import save_figure
         from evolution.runs.storage import make_folder, write_arrays
         from mujoco_port.reach.certificate import certify
         from mujoco_port.reach.certificate_figure import draw_certificate

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from evolution.experiments.jobs import Failure
     from evolution.experiments.plan import Plan
     from evolution.runs.interrupt import StopRequest
+    from evolution.search.config import RunConfig
+    from evolution.study.declared.parts import DeclaredPart
+    from evolution.study.declared.rows import MeasuredRun
     from evolution.study.variants import Part
 
 
@@ -28,7 +31,9 @@ class StudyCommand:
     name: Annotated[Positional[Literal["readings"]], arg(metavar="STUDY")]
     """The study: readings, what the paper leaves open (docs/readings.md)."""
 
-    part: Literal["screening", "finalists", "around", "confirmation"] = "screening"
+    part: Literal[
+        "screening", "finalists", "around", "confirmation", "factorial", "fresh", "less-one", "hundred"
+    ] = "screening"
     """screening (3000 generations, one reading at a time and the geometry in depth), finalists (the whole
     experiment under the default and the three that came nearest to the paper in the screening), around (as
     the screening: other sizes of mutations, and one reading at a time on top of the favoured size) or
@@ -53,6 +58,13 @@ class StudyCommand:
     results: Path | None = None
     """Folder for tables and pictures, by default results in the part's folder."""
 
+    rows: Path | None = None
+    """File of measured rows to begin with, such as docs/results/readings/factorial.csv: its runs are not
+    evolved again. A declared part keeps the rows of all its runs in rows.csv in its folder."""
+
+    early: bool = False
+    """Choose and compare with as many runs of the declared parts before as are measured by now."""
+
     def run(self) -> int:
         """Study; the exit code is 130 if it was stopped, 2 if a run was given up or nothing is measured."""
         from evolution.experiments.plan_runner import processes
@@ -60,6 +72,10 @@ class StudyCommand:
         from evolution.runs.lock import locked
         from evolution.runs.storage import make_folder
 
+        if self.part in ("factorial", "fresh", "less-one", "hundred"):
+            return self._run_declared()
+        if self.rows is not None or self.early:
+            raise ValueError(f"--rows and --early are for declared parts, which {self.part} is not")
         part, at_once = self._part(), processes(self.jobs)
         plan = _plan(part, self.output)
         failures = ()
@@ -75,6 +91,45 @@ class StudyCommand:
         for each in failures:
             print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
         return BAD_INPUT if failures else 0
+
+    def _run_declared(self) -> int:
+        """Evolve and measure what has no row yet."""
+        from evolution.experiments.plan_runner import processes
+        from evolution.runs.interrupt import StopRequest
+        from evolution.study.declared.plan import carry_out
+        from evolution.study.declared.study import DeclaredStudy
+        from evolution.study.measures import check_generations
+
+        if self.seeds is not None:
+            raise ValueError(f"every run of the part {self.part} has its seed; leave --seeds away")
+        if self.generations is not None:
+            check_generations(self.generations)
+        study = DeclaredStudy(self.output, generations=self.generations, early=self.early)
+        part = study.part(self.part)
+        rows, known, failures = study.rows(part), self._known(part), ()
+        if not self.now:
+            with StopRequest() as stop:
+                failures = carry_out(rows, rows.path.parent, processes(self.jobs), stop, known.values())
+            if stop.requested:
+                print("stopped; go on with the same command")
+                return INTERRUPTED
+        found = known | rows.read()
+        runs = [found[config] for config in part.configs if config in found]
+        paths, notes = study.write(part, runs, self.results or rows.path.parent / "results")
+        print(*paths, *notes, f"{len(runs)} of {len(part.configs)} runs are measured so far", sep="\n")
+        for each in failures:
+            print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
+        return BAD_INPUT if failures else 0
+
+    def _known(self, part: DeclaredPart) -> dict[RunConfig, MeasuredRun]:
+        """The runs of the file of rows to begin with, if there is one."""
+        from evolution.study.declared.plan import RowFile
+
+        if self.rows is None:
+            return {}
+        if not self.rows.is_file():
+            raise ValueError(f"there is no file {self.rows}; give one that a study of the same part wrote")
+        return RowFile(self.rows, part).read()
 
     def _part(self) -> Part:
         """The part that is asked for, with the numbers of seeds and generations that are."""
@@ -106,37 +161,6 @@ class StudyCommand:
             command = f"wordarm study readings --part {among}"
             raise ValueError(f"no run is measured in {folder}; begin with: {command}")
         return [each.runs[0].config.readings for each in nearest(variants)]
-
-
-@dataclass(frozen=True)
-class Measure:
-    """Say by which numbers a study compares a run: plateau, first solution, Table II's top category.
-
-    Of the late generations every tenth is tested; `wordarm postevaluate` tests all of them.
-    """
-
-    run_folder: Annotated[Positional[Path], arg(metavar="RUN")]
-    """Folder of a finished run."""
-
-    def run(self) -> int:
-        """Measure, keep what was simulated beside the run, and print."""
-        from evolution.agents.subtasks import SUBTASKS
-        from evolution.runs.folder import RunFolder
-        from evolution.runs.lock import locked
-        from evolution.study.measures import measure
-
-        run = RunFolder.open(self.run_folder)
-        with locked(run.path):
-            found = measure(run)
-        first = found.first_solved if found.first_solved >= 0 else "never"
-        print(f"plateau of the best fitness: {found.plateau:.3f}")
-        print(f"first generation in which one genotype carried out all trials: {first}")
-        print(f"late generations in which one did: {100 * found.solved_late:.1f} %")
-        for name, share in zip(SUBTASKS, found.top_shares, strict=True):
-            print(f"late agents in category 10 of sub-task {name}: {100 * share:.1f} %")
-        for kind, share in found.class_shares.items():
-            print(f"{kind} agents: {100 * share:.1f} %")
-        return 0
 
 
 def _plan(part: Part, folder: Path) -> Plan:

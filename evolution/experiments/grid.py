@@ -18,8 +18,7 @@ from arm2d import Condition, Readings
 from evolution.experiments.spec import ExperimentSpec, check_size, read_seeds
 from evolution.experiments.variants import Variant, check_name, value_name
 from evolution.search.settings import Settings
-from evolution.search.toml import read_toml
-from evolution.search.toml_keys import check_keys, one_of_kind, table_of
+from evolution.search.toml import check_keys, one_of_kind, read_toml, table_of
 
 KEYS: Final = (
     "output", "jobs", "conditions", "seeds", "preset", "post_evaluate", "settings", "readings", "variant",

@@ -6,7 +6,7 @@ import math
 import os
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from typing import Final
@@ -75,6 +75,7 @@ def run_plan_shown(
     stop: StopRequest | None = None,
     console: Console | None = None,
     elsewhere: Start | None = None,
+    on_end: Callable[[Ended], None] = lambda ended: None,
 ) -> tuple[Failure, ...]:
     """The same under the live table, plan and times being noted in the folder.
 
@@ -84,6 +85,7 @@ def run_plan_shown(
         stop: An open one, if the caller has more to do when stopped; else Ctrl-C stops this alone.
         console: Where the table is shown.
         elsewhere: How workers are started on other machines, which then get all jobs, to queue them.
+        on_end: Called for every process that ended, too.
 
     Returns:
         The jobs that were given up.
@@ -106,6 +108,7 @@ def run_plan_shown(
         def end(ended: Ended) -> None:
             note_time(plan.folder, ended)
             watch.forget(ended.job.name)
+            on_end(ended)
 
         overseer = Overseer(
             on_tick=tick,
@@ -214,8 +217,11 @@ def _group_text(runs: Sequence[Standing], pace: Pace) -> str:
     """The runs of a variant: how many, how long, and what is done of them."""
     left = [each for each in runs if not each.done and not each.damage]
     damaged = sum(bool(each.damage) for each in runs)
-    counts = [f"{len(runs)} x {runs[0].config.settings.generations} generations"]
-    counts += [
-        f"{n} {what}" for n, what in ((len(runs) - len(left) - damaged, "done"), (damaged, "damaged")) if n
-    ]
-    return ", ".join([*counts, *([f"{duration(sum(map(pace.left, left)))} of CPU"] if left else [])])
+    parts = [f"{len(runs)} x {runs[0].config.settings.generations} generations"]
+    if done := len(runs) - len(left) - damaged:
+        parts.append(f"{done} done")
+    if damaged:
+        parts.append(f"{damaged} damaged")
+    if left:
+        parts.append(f"about {duration(sum(map(pace.left, left)))} in one process")
+    return ", ".join(parts)

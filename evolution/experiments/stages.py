@@ -9,7 +9,7 @@ from typing import Any
 
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
-from evolution.agents.transition_test import run_transition_test
+from evolution.agents.transitions import run_transition_test
 from evolution.answers import INTERRUPTED
 from evolution.runs.folder import RunFolder
 from evolution.runs.interrupt import StopRequest

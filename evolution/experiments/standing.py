@@ -13,9 +13,10 @@ from pathlib import Path
 from statistics import median
 from typing import Final
 
-from evolution.agents import postevaluation, transition_test
-from evolution.agents.postevaluation import late_spans
+from evolution.agents.parts import late_spans
+from evolution.agents.postevaluation import POST_EVALUATION
 from evolution.agents.solving import FILE as SOLVED
+from evolution.agents.transitions import TRANSITION_TEST
 from evolution.runs.folder import CHAMPIONS, CONFIG, GENERATIONS_PER_PART, LOCK, RunFolder
 from evolution.runs.lease import held_elsewhere
 from evolution.runs.lock import Word, last_word
@@ -24,7 +25,7 @@ from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
 LOCK_TABLE: Final = Path("/proc/locks")
-TESTS: Final = (postevaluation, transition_test)
+TESTS: Final = (POST_EVALUATION, TRANSITION_TEST)
 # Until parts have been tested: the time of 100 generations' tests, as a multiple of that of their
 # evolution, measured with default readings.
 TESTS_PER_EVOLUTION: Final = 2.5
@@ -117,7 +118,7 @@ def standing_of(
     run = RunFolder(path, config)
     try:
         late = late_spans(run)
-        tested = sum(test.part_path(run, each).exists() for test in TESTS for each in late)
+        tested = sum(test.path(run, each).exists() for test in TESTS for each in late)
         to_be_tested = bool(tested) if to_be_tested is None else to_be_tested
         fresh = Standing(config, to_test=2 * len(late) if to_be_tested else 0, variant=variant)
         if not (path / CONFIG).exists():
@@ -136,7 +137,7 @@ def _standing_of_started(run: RunFolder, fresh: Standing) -> Standing:
         generations, best = word.generations, word.best
     evolved = finished and (run.path / CHAMPIONS).exists()
     tested = fresh.tested == fresh.to_test and (
-        not fresh.to_test or (run.path / postevaluation.FOLDER / SOLVED).exists()
+        not fresh.to_test or (run.path / POST_EVALUATION.folder / SOLVED).exists()
     )
     return replace(
         fresh,
@@ -184,8 +185,8 @@ def pace_of(runs: Iterable[RunFolder]) -> Pace:
     for run in runs:
         size = size_of(run.config)
         generations += [each / size for each in _intervals([run.part_path(each) for each in run.spans])]
-        evaluations += _intervals([postevaluation.part_path(run, each) for each in late_spans(run)])
-        transitions += _intervals([transition_test.part_path(run, each) for each in late_spans(run)])
+        evaluations += _intervals([POST_EVALUATION.path(run, span) for span in late_spans(run)])
+        transitions += _intervals([TRANSITION_TEST.path(run, span) for span in late_spans(run)])
     part = median(generations) if generations else float("nan")
     default = TESTS_PER_EVOLUTION * part / 2
     tests = [median(each) if each else default for each in (evaluations, transitions)]

@@ -23,9 +23,8 @@ from arm2d import Instruction, ObjectWord, Readings, Trials, record_trial
 from arm2d import constants as c
 from arm2d.drawing import ARM, CAMERA, INK, OBJECT_COLOURS, Scene, arm_points, state_at
 from arm2d.trials import TrialRecord
-from evolution.figures.page import svg_bytes
-from evolution.figures.style import STYLE
-from evolution.runs.sources import find_source
+from evolution.figures.page import STYLE, svg_bytes
+from evolution.runs.sources import find_agent
 from evolution.runs.storage import write_atomically
 
 SIZE: Final = (11.0, 4.4)  # [inches]
@@ -200,7 +199,7 @@ def _draw_inputs(axes: Axes, heights: list[float]) -> None:
 
 def main(path: Path) -> None:
     """Write the picture."""
-    agent = find_source(AGENT)
+    agent = find_agent(AGENT)
     with mpl.rc_context(STYLE):
         write_atomically(path, svg_bytes(concept_figure(example(agent.genotype, agent.readings))))
     print(path)

@@ -29,10 +29,10 @@ class Page:
     def run(self) -> int:
         """Write the page and print its path."""
         from evolution.player.page import render_page
-        from evolution.runs.sources import find_source
+        from evolution.runs.sources import find_agent
         from evolution.runs.storage import make_folder, write_atomically
 
-        page = render_page([find_source(each) for each in self.agents])
+        page = render_page([find_agent(each) for each in self.agents])
         make_folder(self.output.parent)
         write_atomically(self.output, page.encode())
         print(self.output)

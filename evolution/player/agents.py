@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Final
 
-from evolution.runs.sources import Source
+from evolution.runs.sources import Agent
 from evolution.search.evaluation import evaluate
 
 # How the shipped agents are introduced; any other by where it comes from.
@@ -24,14 +24,14 @@ INTRODUCTIONS: Final = {
 }
 
 
-def agent_for_page(source: Source) -> dict[str, Any]:
+def agent_for_page(source: Agent) -> dict[str, Any]:
     """An agent with its introduction, tested as `wordarm evaluate` does."""
     name, note = INTRODUCTIONS.get(source.name, (source.name.replace("-", " ").capitalize(), source.origin))
     tested = evaluate(source.genotype, source.condition, source.readings)
     return described(source, name, note, tested.successes[0].sum(axis=-1).tolist())
 
 
-def described(source: Source, name: str, note: str, successes: list[int]) -> dict[str, Any]:
+def described(source: Agent, name: str, note: str, successes: list[int]) -> dict[str, Any]:
     """An agent under a name, with a note, and how many of 80 tries of each instruction it carried out."""
     return {
         "name": name,

@@ -12,12 +12,12 @@ from markupsafe import Markup
 
 from evolution.player.agents import agent_for_page
 from evolution.player.bundle import bundle
-from evolution.runs.sources import Source
+from evolution.runs.sources import Agent
 
 HERE = Path(__file__).parent
 
 
-def render_page(sources: Sequence[Source]) -> str:
+def render_page(sources: Sequence[Agent]) -> str:
     """The text of a page in which these agents live. The same agents give the same page."""
     environment = Environment(
         loader=FileSystemLoader(HERE), autoescape=True, undefined=StrictUndefined, keep_trailing_newline=True

@@ -25,15 +25,13 @@ from evolution.player.page import as_json, player_parts
 from evolution.report.classes import behaviours_kept, class_figures
 from evolution.report.configuration import readings_rows, settings_rows, versions_rows
 from evolution.report.pictures import figure_uri, file_uri
-from evolution.report.report_tables import category_tables, comparison_rows, departures_in_size, run_rows
 from evolution.report.safety import content_policy, link_to
-from evolution.report.sentences import result_sentences, standing_of_best
-from evolution.report.tables import main_lines
-from evolution.results.generaliser_text import generalisers_sentence
-from evolution.results.notable import Agent, best_agent
+from evolution.report.sentences import departures_in_size, result_sentences, standing_of_best
+from evolution.report.tables import category_tables, main_lines, shown_runs, shown_tests
+from evolution.results.notable import NotableAgent, best_agent
 from evolution.results.records import ConditionResults, Results
-from evolution.results.wording import TITLES
-from evolution.runs.sources import find_source
+from evolution.results.wording import TITLES, generalisers_sentence
+from evolution.runs.sources import find_agent
 from evolution.runs.storage import make_folder, write_atomically
 
 TEMPLATE: Final = "template.html"
@@ -79,8 +77,8 @@ def render(results: Results, home: Path) -> str:
 def _content(results: Results, home: Path) -> dict[str, Any]:
     """Everything the template shows."""
     shown = replace(results, conditions={c: e for c, e in results.conditions.items() if len(e.runs)})
-    best = [(each, best_agent(each)) for each in shown.conditions.values()]
-    agents = [_agent(each, agent, results.experiment.path) for each, agent in best if agent is not None]
+    best = [(found, best_agent(found)) for found in shown.conditions.values()]
+    agents = [_agent(found, agent, results.experiment.path) for found, agent in best if agent is not None]
     figures = all_figures(shown) if shown.conditions else {}
     experiment = results.experiment
     return {
@@ -88,19 +86,19 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "sentences": result_sentences(results),
         "missing": results.missing,
         "sizes": departures_in_size(results),
-        "titles": [TITLES[each] for each in shown.conditions],
+        "titles": [TITLES[condition] for condition in shown.conditions],
         "main_lines": main_lines(shown),
         "category_tables": category_tables(shown),
-        "generalisers": [generalisers_sentence(each) for each in shown.conditions.values()],
-        "run_rows": run_rows(shown),
-        "comparison_rows": comparison_rows(results),
+        "generalisers": [generalisers_sentence(found) for found in shown.conditions.values()],
+        "runs": shown_runs(shown),
+        "tests": shown_tests(results),
         "standings": [standing_of(run.path, run.config) for run in experiment.all_runs],
         "subtasks": SUBTASKS,
-        "classes": [str(each) for each in AgentClass],
+        "classes": [str(kind) for kind in AgentClass],
         "figures": {name: figure_uri(figure) for name, figure in figures.items()},
         "agents": agents,
         **_classes(shown),
-        "players": as_json([each["player"] for each in agents]),
+        "players": as_json([agent["player"] for agent in agents]),
         "trials": TRIALS,
         "films": list(_films(experiment.path, home)),
         "settings": settings_rows(results),
@@ -110,37 +108,39 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
     }
 
 
-def _agent(each: ConditionResults, agent: Agent, experiment: Path) -> dict[str, Any]:
+def _agent(found: ConditionResults, agent: NotableAgent, experiment: Path) -> dict[str, Any]:
     """The best agent of a condition: as it lives in the page, and figures that lie beside its run."""
     figures, refused = _figures_beside(agent)
     return {
-        "condition": TITLES[each.condition],
+        "condition": TITLES[found.condition],
+        "what": standing_of_best(found),
+        "seed": agent.run.config.seed,
         "generation": agent.generation,
         "rank": agent.rank,
         "source": shlex.quote(str(agent.run.path.relative_to(experiment))),
-        "player": _player(each, agent),
+        "player": _player(found, agent),
         "figures": figures,
         "refused": refused,
     }
 
 
-def _player(each: ConditionResults, agent: Agent) -> dict[str, Any]:
+def _player(found: ConditionResults, agent: NotableAgent) -> dict[str, Any]:
     """What the page's player is told of the agent.
 
     Raises:
         ValueError: If the agent's run is damaged.
     """
-    source = find_source(str(agent.run.path), generation=agent.generation, rank=agent.rank)
+    source = find_agent(str(agent.run.path), generation=agent.generation, rank=agent.rank)
     origin = f"seed {agent.run.config.seed}, generation {agent.generation}, rank {agent.rank}"
-    note = f"The {standing_of_best(each)}: {origin}."
-    return described(source, TITLES[each.condition], note, agent.successes.tolist())
+    note = f"The {standing_of_best(found)}: {origin}."
+    return described(source, TITLES[found.condition], note, agent.successes.tolist())
 
 
 def _classes(shown: Results) -> dict[str, Any]:
     """What was observed of the classes of agents, and how to observe what was not."""
     behaviours, missing = behaviours_kept(shown, Sampling())
     figures = class_figures(behaviours, Sampling())
-    some = any(each.members[kind].any() for each in shown.conditions.values() for kind in AgentClass)
+    some = any(found.members[kind].any() for found in shown.conditions.values() for kind in AgentClass)
     return {
         "class_figures": [figure_uri(figure) for figure in figures.values()],
         "class_missing": missing,
@@ -148,7 +148,7 @@ def _classes(shown: Results) -> dict[str, Any]:
     }
 
 
-def _figures_beside(agent: Agent) -> tuple[list[tuple[str, str]], list[str]]:
+def _figures_beside(agent: NotableAgent) -> tuple[list[tuple[str, str]], list[str]]:
     """(caption, picture) of what was drawn for exactly this agent; a sentence for each that is not shown."""
     stem = f"generation-{agent.generation:06d}-rank-{agent.rank}"
     figures, refused = [], []

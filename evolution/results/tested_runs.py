@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.records import brief
-from evolution.agents.postevaluation import PostEvaluation, read_post_evaluation
-from evolution.agents.solving import solved_trials
-from evolution.agents.transition_test import TransitionTest, read_transition_test
+from evolution.agents.firsts import first_row
+from evolution.agents.postevaluation import POST_EVALUATION, PostEvaluation
+from evolution.agents.solving import all_solved
+from evolution.agents.transitions import TRANSITION_TEST, TransitionTest
 from evolution.experiments.standing import standing_of
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History
@@ -60,7 +61,7 @@ def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[s
             tested.append(_read(run))
         except ValueError as error:
             missing.append(f"{name_of(run)}: left out, {error}")
-    lengths = {each.run.config.settings.generations for each in tested}
+    lengths = {found.run.config.settings.generations for found in tested}
     if len(lengths) > 1:
         raise ValueError(f"the runs have {sorted(lengths)} generations; analyse runs of one length together")
     return tested, missing
@@ -80,16 +81,14 @@ def unfinished(run: RunFolder) -> str:
 
 def _read(run: RunFolder) -> TestedRun:
     """All of a run that an analysis needs; raises `ValueError` if a file is missing or damaged."""
-    evaluation, transitions = read_post_evaluation(run), read_transition_test(run)
+    evaluation, transitions = POST_EVALUATION.read(run), TRANSITION_TEST.read(run)
     history = History.join(recorded_histories(run))
-    n_trials = len(run.config.condition.experienced) * 2 * run.config.settings.trials_per_area
-    all_solved = np.flatnonzero(solved_trials(run) == n_trials)
     late = history.best_genotypes[-len(evaluation.generations) :]
     _, copies = np.unique(late.reshape(-1, late.shape[-1]), axis=0, return_counts=True)
     return TestedRun(
         run=run,
         best=history.best,
-        first_solved=int(all_solved[0]) if all_solved.size else -1,
+        first_solved=first_row(all_solved(run)),
         genotypes=len(copies),
         longest_stay=int(copies.max()),
         evaluation=evaluation,

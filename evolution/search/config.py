@@ -106,7 +106,7 @@ def _flatten(values: Mapping[str, Any]) -> dict[str, Any]:
     flat = {}
     for key, value in values.items():
         if isinstance(value, Mapping):
-            flat.update({f"{key}.{name}": each for name, each in value.items()})
+            flat.update({f"{key}.{name}": part for name, part in value.items()})
         else:
             flat[key] = value
     return flat

@@ -60,7 +60,7 @@ class Evaluation:
     @property
     def experienced(self) -> NDArray[np.bool_]:
         """Which of the nine instructions were met during evolution, [9]."""
-        return np.array([each in self.condition.experienced for each in self.condition.instructions])
+        return np.array([word in self.condition.experienced for word in self.condition.instructions])
 
 
 def evaluate(

@@ -15,17 +15,16 @@ from evolution.experiments.standing import Standing
 from evolution.experiments.variants import Variant
 from evolution.experiments.warm_workers import WarmStart
 from evolution.experiments.workers import Ended, Job
+from evolution.figures.page import save_figure
 from evolution.figures.paper import TITLES
-from evolution.figures.run import save_figure
-from evolution.report.files import to_csv
 from evolution.runs.folder import RunFolder
 from evolution.runs.interrupt import StopRequest
 from evolution.runs.lock import locked
 from evolution.runs.storage import make_folder, write_atomically
-from evolution.study.effects import effect_rows
+from evolution.study.effects import effect_table
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import is_measured, measure
-from evolution.study.table import VariantMeasures, group, run_rows, variant_rows
+from evolution.study.table import VariantMeasures, group, run_table, variant_table
 from evolution.study.variants import Part
 
 MEASURING: Final = "measuring"
@@ -95,13 +94,13 @@ def write_study(variants: Sequence[VariantMeasures], part: Part, folder: Path) -
     """Write tables, and both pictures for each condition; their paths."""
     make_folder(folder)
     tables = {
-        "variants": variant_rows(variants),
-        "readings": effect_rows(variants),
-        "runs": run_rows(variants),
+        "variants": variant_table(variants),
+        "readings": effect_table(variants),
+        "runs": run_table(variants),
     }
-    for name, rows in tables.items():
+    for name, table in tables.items():
         path = folder / f"{part.name}-{name}.csv"
-        write_atomically(path, to_csv(rows).encode())
+        write_atomically(path, table.to_csv().encode())
         yield path
     for condition in Condition:
         own = [each for each in variants if each.condition is condition]

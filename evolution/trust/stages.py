@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Final
 
 from arm2d.files import final_name, is_temporary
-from evolution.agents import postevaluation, solving, transition_test
+from evolution.agents import solving
+from evolution.agents.postevaluation import POST_EVALUATION
+from evolution.agents.transitions import TRANSITION_TEST
 from evolution.runs.folder import CHAMPIONS, CHECKPOINT, CONFIG, META, PARTS
 
 # What is written, and the share of its writes at which somebody is killed. What comes seldom is hit more
@@ -32,11 +34,11 @@ NAMES: Final = {
     solving.FILE: "solved trials", "report.html": "report",
 }  # fmt: skip
 FOLDERS: Final = {
-    PARTS: "part", postevaluation.FOLDER: "post-evaluation part", transition_test.FOLDER: "transition part",
+    PARTS: "part", POST_EVALUATION.folder: "post-evaluation part", TRANSITION_TEST.folder: "transition part",
     "lineage": "lineage", "behaviour": "behaviour", "results": "results",
 }  # fmt: skip
 # Folders of a run that can be made, and watched, before anything stands in them.
-RUN_FOLDERS: Final = (PARTS, postevaluation.FOLDER, transition_test.FOLDER, "lineage", "behaviour")
+RUN_FOLDERS: Final = (PARTS, POST_EVALUATION.folder, TRANSITION_TEST.folder, "lineage", "behaviour")
 
 
 def stage_of(path: Path) -> str:

@@ -21,9 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
+from arm2d.cache import sources_digest
 from arm2d.files import handle_to_append, read_file, write_whole
 from arm2d.records import brief
-from arm2d.sources import sources_digest
 from models.robots import get_robot
 
 Loop = Literal["open", "delayed", "geometric", "camera"]
@@ -36,7 +36,7 @@ SAFE_PATH: Final = "PYTHONSAFEPATH"
 
 
 @dataclass(frozen=True)
-class Agent:
+class Candidate:
     """Whom to try.
 
     Attributes:
@@ -85,14 +85,14 @@ class Outcome:
 class Job:
     """One trial to carry out."""
 
-    agent: Agent
+    agent: Candidate
     loop: Loop
     trial: Trials
     area: str
     start: int
 
 
-def jobs(agents: Sequence[Agent], loops: Sequence[Loop], n_starts: int, seed: int) -> list[Job]:
+def jobs(agents: Sequence[Candidate], loops: Sequence[Loop], n_starts: int, seed: int) -> list[Job]:
     """All instructions from `n_starts` fresh starts in each area, the same for every agent and loop."""
     listed = []
     for agent in agents:

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from arm2d.sources import source_files, sources_digest
+from arm2d.cache import source_files, sources_digest
 
 ROOT = Path(__file__).parents[2]
-DIGEST = "import sys; from arm2d.sources import sources_digest; print(sources_digest(*sys.argv[1:]))"
+DIGEST = "import sys; from arm2d.cache import sources_digest; print(sources_digest(*sys.argv[1:]))"
 FINGERPRINTS = f"""
 {DIGEST}
-from arm2d.compiling import cache_folder
+from arm2d.cache import cache_folder
 print(cache_folder())
 from mujoco_port.acting.agreement import fingerprint
 print(fingerprint([], "icub"))

@@ -9,6 +9,7 @@ import pytest
 from evolution.answers import BROKEN_PIPE, INTERRUPTED
 from tests.evolution.small_runs import SMALL_FLAGS
 
+CLOSED = "wordarm: nobody reads the output any more, so the command ended; repeat it to go on\n"
 INTERRUPT = """
 import sys
 moment = sys.argv.pop(1)
@@ -24,7 +25,7 @@ sys.exit(main())
 
 
 @pytest.mark.parametrize("moment", ["evolution.cli", "tyro", "numpy", "numba", "evolution.runs.run"])
-def test_interrupted_while_it_loads_it_ends_with_130_and_says_nothing(moment, tmp_path):
+def test_interrupted_while_it_loads_it_ends_with_130_and_one_line(moment, tmp_path):
     command = [
         sys.executable,
         "-c",
@@ -35,13 +36,13 @@ def test_interrupted_while_it_loads_it_ends_with_130_and_says_nothing(moment, tm
         f"--output={tmp_path / 'run'}",
     ]
     done = subprocess.run(command, capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (INTERRUPTED, "")
+    assert (done.returncode, done.stderr) == (INTERRUPTED, "wordarm: stopped by Ctrl-C\n")
     assert "Traceback" not in done.stdout
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
-    "arguments", [["--help"], ["status", "{run}"], ["verify", "{run}"], ["repair", "{run}"]]
+    "arguments", [["--help"], ["status", "{run}"], ["verify", "{run}"], ["verify", "{run}", "--repair"]]
 )
 def test_output_that_nobody_reads_has_an_exit_code_of_its_own(arguments, run_copy):
     reading, writing = os.pipe()
@@ -49,7 +50,7 @@ def test_output_that_nobody_reads_has_an_exit_code_of_its_own(arguments, run_cop
     command = [sys.executable, "-m", "evolution", *(each.format(run=run_copy) for each in arguments)]
     done = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, text=True)
     os.close(writing)
-    assert (done.returncode, done.stderr) == (BROKEN_PIPE, "")
+    assert (done.returncode, done.stderr) == (BROKEN_PIPE, CLOSED)
 
 
 def test_a_run_whose_output_nobody_reads_ends_and_can_be_gone_on_with(tmp_path):
@@ -58,5 +59,5 @@ def test_a_run_whose_output_nobody_reads_ends_and_can_be_gone_on_with(tmp_path):
     command = [sys.executable, "-m", "evolution", "evolve", *SMALL_FLAGS, f"--output={tmp_path / 'run'}"]
     done = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, text=True)
     os.close(writing)
-    assert (done.returncode, done.stderr) == (BROKEN_PIPE, "")
+    assert (done.returncode, done.stderr) == (BROKEN_PIPE, CLOSED)
     assert subprocess.run(command, capture_output=True).returncode == 0

@@ -9,7 +9,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Final
 
-from arm2d.sources import sources_digest
+from arm2d.cache import sources_digest
 
 PACKAGES: Final = ("numpy", "numba", "dask", "distributed")
 SOURCES: Final = "wordarm's sources"

@@ -8,8 +8,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any, Final
 
-from evolution.search.toml import read_toml_file
-from evolution.search.toml_keys import check_keys, table_of
+from evolution.search.toml import check_keys, read_toml_file, table_of
 
 # What a run holds at most, and a worker that watches over runs [MB], with room to spare; see docs/cluster.md.
 MEMORY_OF_A_RUN: Final = 300

@@ -10,7 +10,8 @@ from arm2d import Condition
 from evolution.agents import classes as class_observation
 from evolution.agents.classes import CLASSES, Observation, Sampling, choose, observation_path, observe
 from evolution.agents.lesions import lesion_scores
-from evolution.agents.postevaluation import late_history, post_evaluate
+from evolution.agents.parts import late_history
+from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.subtasks import AgentClass
 from evolution.cli import main
 from evolution.report.classes import behaviours_of, class_figures, write_classes
@@ -95,9 +96,9 @@ def test_damaged_observation_is_named_with_the_command_that_repeats_it(classed):
 def test_the_run_is_the_unit_however_many_agents_it_has(finished_run):
     run = RunFolder.open(finished_run)
     many, one = observation(AgentClass.FULL, [1.0] * 9), observation(AgentClass.FULL, [0.0])
-    each = class_behaviours(INDICATE, [(run, many), (run, one)])[AgentClass.FULL]
-    assert each.agents.tolist() == [9, 1]
-    values = dict(measures(each))
+    behaviour = class_behaviours(INDICATE, [(run, many), (run, one)])[AgentClass.FULL]
+    assert behaviour.agents.tolist() == [9, 1]
+    values = {name: measure(behaviour) for name, measure in measures().items()}
     assert values["success, experienced, intact"].mean() == 0.5
     assert values["share of variance, action, the second before first sight"].tolist() == [0.25, 0.25]
 

@@ -3,6 +3,8 @@
 import os
 import re
 import shutil
+from pathlib import Path
+from tempfile import gettempdir
 
 import pytest
 from hypothesis import given
@@ -155,8 +157,9 @@ def locked_up(finished_run, tmp_path):
     for seed in (1, 2):
         shutil.copytree(finished_run, tmp_path / "with-indicate" / f"seed-000{seed}")
     main(["status", str(tmp_path)])  # loads what nobody may read
-    for each in (tmp_path, *tmp_path.parents[:2]):
-        each.chmod(0o755)
+    for each in (tmp_path, *tmp_path.parents):
+        if each.is_relative_to(gettempdir()) and each != Path(gettempdir()):
+            each.chmod(0o755)
     theirs, me = tmp_path / "with-indicate" / "seed-0002", os.geteuid()
     theirs.chmod(0o000)
     if me == 0:

@@ -13,7 +13,7 @@ from evolution.player.__main__ import SHIPPED, main
 from evolution.player.agents import agent_for_page
 from evolution.player.bundle import bundle
 from evolution.player.page import as_json, render_page
-from evolution.runs.sources import find_source
+from evolution.runs.sources import find_agent
 from tests.evolution.player.node import NODE
 
 ROOT = Path(__file__).parents[3]
@@ -22,7 +22,7 @@ PAGE = ROOT / "docs" / "play" / "index.html"
 
 @pytest.fixture(scope="module")
 def sources():
-    return [find_source(each) for each in SHIPPED]
+    return [find_agent(each) for each in SHIPPED]
 
 
 @pytest.fixture(scope="module")

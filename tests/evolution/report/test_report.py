@@ -5,6 +5,7 @@ import re
 import shutil
 from base64 import b64decode
 from dataclasses import replace
+from html import unescape
 from html.parser import HTMLParser
 from urllib.parse import quote
 
@@ -16,18 +17,19 @@ from arm2d import Condition, Readings
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.agents.subtasks import SUBTASKS
-from evolution.agents.transition_test import run_transition_test
+from evolution.agents.transitions import run_transition_test
 from evolution.experiments.experiment import open_experiment
 from evolution.report.page import render, write_report
 from evolution.report.pictures import file_uri
-from evolution.report.report_tables import comparison_rows, run_rows
 from evolution.report.sentences import result_sentences
+from evolution.report.tables import main_lines, shown_runs, shown_tests
 from evolution.results import published
 from evolution.results.analysis import analyse
 from evolution.results.notable import best_agent
+from evolution.results.statistics import Comparison
 from evolution.results.wording import p_value, percent
 from evolution.runs.run import evolve
-from evolution.runs.sources import find_source
+from evolution.runs.sources import find_agent
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from tests.browser import NEEDS_BROWSER, Browser
@@ -116,20 +118,53 @@ def test_inner_links_lead_somewhere(text):
             assert attributes["href"][1:] in ids
 
 
-def test_every_published_number_stands_beside_ours(text, results):
-    cells = [" ".join(each.split()) for each in re.findall(r"<td[^>]*>([^<]*)</td>", text)]
-    for condition, each in results.conditions.items():
-        for category in range(11):
-            row = [
-                f"{n:,}"
-                for pair in zip(published.TABLE_II[condition][category], each.counts[category], strict=True)
-                for n in pair
-            ]
-            assert any(cells[i : i + 8] == row for i in range(len(cells))), row
-        assert f"{each.at_plateau} of 2" in cells
-    for shown in (*run_rows(results), *comparison_rows(results)):
-        start = cells.index(shown[1])
-        assert any(cells[i : i + len(shown) - 1] == list(shown[1:]) for i in range(start, len(cells)))
+CELL = re.compile(r"<t[hd][^>]*>(.*?)</t[hd]>", re.DOTALL)
+
+
+def tables_of(text):
+    """Every table of a page as rows of words."""
+    tables = []
+    for table in re.findall(r"<table.*?</table>", text, re.DOTALL):
+        rows = re.findall(r"<tr.*?</tr>", table, re.DOTALL)
+        tables.append([[unescape(word).strip() for word in CELL.findall(row)] for row in rows])
+    return tables
+
+
+def rows_below(text, heads):
+    """The rows of every table with this line of heads, table by table."""
+    return [table[table.index(heads) + 1 :] for table in tables_of(text) if heads in table]
+
+
+def test_runs_and_tests_stand_under_their_names(results, experiment):
+    unequal = {
+        name: Comparison((0.1, 0.2), 0.3 + place / 10, (0.4, 0.5), 0.06, 0.07, 0.8)
+        for place, name in enumerate(results.comparisons)
+    }
+    compared = replace(results, comparisons=unequal)
+    text = render(compared, experiment)
+    for table in (shown_runs(compared), shown_tests(compared)):
+        (rows,) = rows_below(text, list(table.columns))
+        assert rows == [list(row.values()) for row in table.rows()]
+        assert len(rows) >= 4
+
+
+def test_the_papers_numbers_and_ours_stand_under_their_heads(results, experiment):
+    found = {
+        condition: replace(own, counts=np.arange(44).reshape(11, 4) + 10_000 + 100 * place)
+        for place, (condition, own) in enumerate(results.conditions.items())
+    }
+    unequal = replace(results, conditions=found)
+    text = render(unequal, experiment)
+    (main,) = rows_below(text, ["", "paper", "ours", "paper", "ours"])
+    expected = [
+        [line.what, *(words for pair in line.pairs for words in pair)] for line in main_lines(unequal)
+    ]
+    assert main == expected
+    categories = rows_below(text, ["category", *["paper", "ours"] * 4])
+    assert len(categories) == 2
+    for rows, (condition, own) in zip(categories, found.items(), strict=True):
+        both = np.stack([published.TABLE_II[condition], own.counts], axis=-1).reshape(11, 8)
+        assert [row[1:] for row in rows] == [[f"{n:,}" for n in row] for row in both]
 
 
 def test_all_figures_are_inside(text):
@@ -154,7 +189,7 @@ def test_the_best_agents_live_at_the_top_of_the_page(text, results):
     )
     best = [best_agent(each) for each in results.conditions.values()]
     for player, agent, condition in zip(players, best, Condition, strict=True):
-        source = find_source(str(agent.run.path), generation=agent.generation, rank=agent.rank)
+        source = find_agent(str(agent.run.path), generation=agent.generation, rank=agent.rank)
         assert np.array_equal(player["genotype"], source.genotype)
         assert player["successes"] == agent.successes.tolist()
         assert player["condition"] == condition
@@ -217,6 +252,8 @@ def test_films_beside_the_runs_are_linked(results, experiment):
     film = experiment / "with-ignore" / "seed-0001" / "videos" / "champion-touch-green.mp4"
     film.parent.mkdir()
     film.touch()
+    for leftover in (".champion-touch-green.unfinished.mp4", ".champion-touch-green.mp4.0a1b2c3d.unfinished"):
+        (film.parent / leftover).touch()  # of a process that was killed
     text = render(results, experiment.parent)
     shutil.rmtree(film.parent)
     place = f"./{quote(experiment.name)}/with-ignore/seed-0001/videos/champion-touch-green.mp4"

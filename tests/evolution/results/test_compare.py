@@ -9,10 +9,9 @@ import pytest
 
 from arm2d import Condition, Readings
 from evolution.agents.postevaluation import post_evaluate
-from evolution.agents.transition_test import run_transition_test
+from evolution.agents.transitions import run_transition_test
 from evolution.cli import main
 from evolution.experiments.experiment import open_experiment
-from evolution.figures.compare import compare_figure
 from evolution.results import published
 from evolution.results.analysis import analyse
 from evolution.results.key_numbers import AT_LIMIT, PLATEAU, by_condition, departures, key_numbers, top_name
@@ -78,14 +77,6 @@ def test_command_writes_a_table_and_a_figure(experiments, tmp_path, capsys):
     assert float(plateau[0]["larger"]) > 0
     assert plateau[1]["larger"] == ""  # it has no With-Ignore run
     assert "larger: object radius 8.0" in capsys.readouterr().out
-
-
-def test_figure_has_every_run_of_every_experiment(results):
-    figure = compare_figure(results)
-    assert len(figure.axes) == 2 * 4
-    drawn = [x for line in figure.axes[0].lines for x in np.atleast_1d(line.get_xdata())]
-    for each in results.values():
-        assert each.conditions[Condition.WITH_INDICATE].plateau[0] in drawn
 
 
 def test_readings_are_told_where_they_differ():

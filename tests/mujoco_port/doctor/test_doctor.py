@@ -1,6 +1,8 @@
 """`wordarm doctor` on machines that lack something; each is made of environment variables or links."""
 
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -9,9 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from mujoco_port.doctor.children import attempt
 from mujoco_port.doctor.findings import State
 from mujoco_port.doctor.machine import container_share
-from mujoco_port.doctor.packages import remedy
+from mujoco_port.doctor.packages import IMPORT, remedy
 
 DRAWING = """
 from mujoco_port.doctor.drawing import examine_drawing
@@ -175,6 +178,19 @@ def test_a_pinocchio_of_a_ros_workspace_is_found_and_named(tmp_path):
     assert f"pinocchio comes from {workspace}/pinocchio/__init__.py, not from the package pin" in line
     assert moves == ["run it without that folder: env -u PYTHONPATH wordarm ..."]
     assert f"{workspace} (ROS jazzy), whose packages come before ours" in line_of(lines, "PYTHONPATH")[0]
+
+
+def test_libraries_below_a_folder_with_a_blank_are_found(tmp_path):
+    package = tmp_path / "an environment" / "thing"
+    package.mkdir(parents=True)
+    rows = [line.split(maxsplit=5) for line in Path("/proc/self/maps").read_text().splitlines()]
+    some_library = next(row[5] for row in rows if re.search(r"/libm[.-][^/]*$", row[-1]))
+    library = package / "libthing.so"
+    shutil.copy(some_library, library)
+    (package / "__init__.py").write_text(f"import ctypes; ctypes.CDLL({str(library)!r})")
+    tried = attempt(IMPORT, "thing", environment={"PYTHONPATH": str(package.parent)})
+    assert tried.works, tried.reason
+    assert json.loads(tried.lines[1])[1] == [str(library)]
 
 
 def test_a_library_that_the_system_lacks_is_not_blamed_on_the_package():

@@ -64,7 +64,7 @@ def test_a_folder_is_not_taken_for_a_film(tmp_path, capsys):
 def test_without_an_encoder_port_says_so_and_makes_no_folder(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("IMAGEIO_FFMPEG_EXE", "/bin/echo")
-    for command in (["port", "best-generaliser", "move red"], ["gallery", "best-generaliser"]):
+    for command in (["port", "best-generaliser", "move red"], ["port", "best-generaliser", "all"]):
         assert main(command) == 2
         said = capsys.readouterr().err
         assert said == (
