@@ -24,6 +24,8 @@ from typing import Final, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.files import handle_of_new
+
 # H.264 that every player and browser knows, its index in front so that a browser starts at once; this preset
 # takes a third of the default's time, and a constant rate factor of 15 leaves edges sharp.
 ENCODING: Final = ("-an", "-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "15", "-preset", "veryfast")
@@ -128,7 +130,7 @@ def unfinished(path: Path) -> Iterator[Path]:
     with _ending_in_order():
         try:
             try:
-                os.close(os.open(file, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+                os.close(handle_of_new(file))
             except OSError as error:
                 _refuse(path, _why(error))
             yield file

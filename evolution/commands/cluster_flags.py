@@ -26,7 +26,8 @@ class ClusterFlags:
     """Where runs are done: here, if neither --scheduler nor --slurm is given."""
 
     scheduler: str | None = None
-    """Address of a Dask scheduler, such as tcp://10.0.0.1:8786; its workers do the runs."""
+    """Address of a Dask scheduler, such as tls://10.0.0.1:8786; its workers do the runs. Whoever reaches one
+    at tcp:// can run programs as you."""
 
     slurm: bool = False
     """Let SLURM start workers, and do the runs there."""

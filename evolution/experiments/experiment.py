@@ -11,6 +11,7 @@ from pathlib import Path
 
 from arm2d import Condition, Readings
 from evolution.runs.folder import CONFIG, RunFolder
+from evolution.search.config import RunConfig
 
 
 @dataclass(frozen=True)
@@ -21,11 +22,13 @@ class Experiment:
         path: Its folder.
         runs: By condition.
         unreadable: A sentence for every run whose config.toml cannot be understood.
+        copies: A sentence for every folder that holds a run which another one holds too.
     """
 
     path: Path
     runs: Mapping[Condition, tuple[RunFolder, ...]]
     unreadable: tuple[str, ...] = ()
+    copies: tuple[str, ...] = ()
 
     @property
     def all_runs(self) -> tuple[RunFolder, ...]:
@@ -70,18 +73,20 @@ def open_experiment(path: Path | str) -> Experiment:
             f"{path} holds no runs; an experiment holds <condition>/seed-<seed>/{CONFIG}: "
             "give such a folder, or start one with: wordarm reproduce"
         )
-    runs, unreadable = _opened(folders)
+    opened, unreadable = _opened(folders)
+    runs, copies = _without_copies(opened)
     readings = {run.config.readings for run in runs}
     if len(readings) > 1:
         raise ValueError(
             f"the runs in {path} took place under {len(readings)} different readings; analyse them apart"
         )
     by_condition = {c: tuple(run for run in runs if run.config.condition is c) for c in Condition}
-    return Experiment(path, {c: runs for c, runs in by_condition.items() if runs}, tuple(unreadable))
+    shown = {c: runs for c, runs in by_condition.items() if runs}
+    return Experiment(path, shown, tuple(unreadable), tuple(copies))
 
 
 def _opened(folders: Iterable[Path]) -> tuple[list[RunFolder], list[str]]:
-    """The runs that can be opened, by seed, and what is wrong with the others.
+    """The runs that can be opened, and what is wrong with the others.
 
     Raises:
         ValueError: If none can, with what is wrong with the first.
@@ -94,4 +99,26 @@ def _opened(folders: Iterable[Path]) -> tuple[list[RunFolder], list[str]]:
             unreadable.append(str(error))
     if not runs:
         raise ValueError(unreadable[0])
-    return sorted(runs, key=lambda run: run.config.seed), unreadable
+    return runs, unreadable
+
+
+def _without_copies(runs: Iterable[RunFolder]) -> tuple[list[RunFolder], list[str]]:
+    """Every run once, and a sentence for each folder that holds one of them again.
+
+    One configuration with one seed gives one result: counted twice, it would pass for two.
+    """
+    found: dict[RunConfig, RunFolder] = {}
+    copies = []
+    for run in sorted(runs, key=lambda run: (run.config.seed, not _has_its_own_name(run), run.path)):
+        first = found.setdefault(run.config, run)
+        if first is not run:
+            copies.append(
+                f"{run.path} holds the same run as {first.path} (configuration and seed), which is counted "
+                "once; move the copy elsewhere"
+            )
+    return list(found.values()), copies
+
+
+def _has_its_own_name(run: RunFolder) -> bool:
+    """Whether a run lies where it was made, rather than where it was copied."""
+    return run.path.name == f"seed-{run.config.seed:04d}" and run.path.parent.name == run.config.condition

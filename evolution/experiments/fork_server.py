@@ -24,8 +24,10 @@ import socket
 import sys
 import traceback
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, Final, NoReturn
 
+from arm2d.files import handle_to_append
 from evolution.child import perform
 
 LARGEST_MESSAGE: Final = 200_000  # [bytes]
@@ -117,7 +119,7 @@ def _work(function: str, arguments: Mapping[str, Any], log: str) -> NoReturn:
     try:
         os.setpgid(0, 0)
         signal.signal(signal.SIGINT, signal.default_int_handler)
-        output = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
+        output = handle_to_append(Path(log))
         os.dup2(output, 1)
         os.dup2(output, 2)
         # Also our end of the socket: whether the server lives is seen by its end.

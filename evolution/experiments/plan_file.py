@@ -14,6 +14,7 @@ from typing import Any, Final
 import tomli_w
 
 from arm2d import Condition, Readings
+from arm2d.files import NoFileError, read_file
 from evolution.experiments.experiment import open_experiment
 from evolution.experiments.plan import Plan
 from evolution.experiments.standing import Standing, standing_of
@@ -40,7 +41,7 @@ def write_plan(plan: Plan) -> None:
     """
     make_folder(plan.folder)
     path, text = plan.folder / FILE, plan_text(plan).encode()
-    if not path.exists() or path.read_bytes() != text:
+    if not _holds(path, text):
         write_atomically(path, text)
 
 
@@ -72,7 +73,7 @@ def read_plan(folder: Path) -> Plan | None:
     """
     path = folder / FILE
     try:
-        text = path.read_text(encoding="utf-8")
+        text = read_file(path, LONGEST).decode()
     except FileNotFoundError:
         return None
     except OSError as error:
@@ -175,6 +176,14 @@ def _tests_belong_to(path: Path) -> bool | None:
         if plan := _plan_or_sentence(above)[0]:
             return plan.post_evaluate
     return None
+
+
+def _holds(path: Path, text: bytes) -> bool:
+    """Whether a file is this text."""
+    try:
+        return read_file(path, len(text)) == text
+    except (OSError, NoFileError):
+        return False
 
 
 def _unsound(path: Path, found: str) -> ValueError:

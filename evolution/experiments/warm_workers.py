@@ -15,6 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from arm2d.files import handle_to_append
 from evolution.child import calling, reference
 from evolution.experiments.fork_server import LARGEST_MESSAGE, fork_workers
 from evolution.experiments.workers import LOST, Ended, Job, Worker
@@ -111,7 +112,7 @@ class _Server:
     def __init__(self, log: Path) -> None:
         make_folder(log.parent)
         self._socket, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        with theirs, log.open("ab") as output:
+        with theirs, os.fdopen(handle_to_append(log), "ab") as output:
             self._process = subprocess.Popen(  # noqa: S603 - our own program
                 calling(reference(fork_workers), {"descriptor": theirs.fileno()}),
                 stdin=subprocess.DEVNULL,

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
+from arm2d.files import handle_to_append
 from evolution.answers import SENTENCE_PREFIX
 from evolution.child import calling
 from evolution.runs.storage import make_folder
@@ -83,14 +84,14 @@ class Worker:
         self.job = job
         self._told_to_stop = False
         make_folder(job.log.parent)
-        with job.log.open("ab") as log:
+        with os.fdopen(handle_to_append(job.log), "ab") as log:
             self._log_start = log.tell()
         self._began = time.monotonic()
         self._begin()
 
     def _begin(self) -> None:
         """Start the process."""
-        with self.job.log.open("ab") as log:
+        with os.fdopen(handle_to_append(self.job.log), "ab") as log:
             # A process group of its own: Ctrl-C reaches it through us, once, and in good order.
             self._process = subprocess.Popen(  # noqa: S603 - our own program
                 calling(self.job.function, self.job.arguments),

@@ -16,14 +16,20 @@ from evolution.report.rows import (
     table_ii,
     transition_table,
 )
-from evolution.results.analysis import interval_of_mean
+from evolution.results.analysis import check_some_tested, interval_of_mean
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import generalisers_sentence
 from evolution.runs.storage import make_folder, write_arrays, write_atomically
 
 
 def write_results(results: Results, folder: Path | str) -> list[Path]:
-    """Write everything into a folder; the paths, tables first."""
+    """Write everything into a folder; the paths, tables first.
+
+    Raises:
+        ValueError: If no run can be analysed; nothing is written then.
+        OSError: If it cannot be written.
+    """
+    check_some_tested(results)
     folder = Path(folder)
     make_folder(folder)
     tables = {

@@ -6,7 +6,7 @@ All numbers come from `evolution.results.analysis`; here they become text, table
 
 from __future__ import annotations
 
-import os
+import shlex
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
@@ -25,6 +25,7 @@ from evolution.player.page import as_json, player_parts
 from evolution.report.classes import behaviours_kept, class_figures
 from evolution.report.configuration import readings_rows, settings_rows, versions_rows
 from evolution.report.pictures import figure_uri, file_uri
+from evolution.report.safety import content_policy, link_to
 from evolution.report.sentences import departures_in_size, result_sentences, standing_of_best
 from evolution.report.tables import category_tables, main_lines, shown_runs, shown_tests
 from evolution.results.notable import NotableAgent, best_agent
@@ -54,7 +55,8 @@ def write_report(results: Results, path: Path | str) -> Path:
     """
     path = Path(path)
     make_folder(path.parent)
-    write_atomically(path, render(results, path.parent).encode())
+    # Names of folders and files may be no text at all.
+    write_atomically(path, render(results, path.parent).encode(errors="replace"))
     return path
 
 
@@ -67,7 +69,9 @@ def render(results: Results, home: Path) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    return environment.get_template(TEMPLATE).render(_content(results, home))
+    template, player = environment.get_template(TEMPLATE), player_parts()
+    policy = content_policy(Path(str(template.filename)).read_text(encoding="utf-8"), player["script"])
+    return template.render(policy=policy, player=player, **_content(results, home))
 
 
 def _content(results: Results, home: Path) -> dict[str, Any]:
@@ -94,7 +98,6 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "figures": {name: figure_uri(figure) for name, figure in figures.items()},
         "agents": agents,
         **_classes(shown),
-        "player": player_parts(),
         "players": as_json([agent["player"] for agent in agents]),
         "trials": TRIALS,
         "films": list(_films(experiment.path, home)),
@@ -107,15 +110,17 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
 
 def _agent(found: ConditionResults, agent: NotableAgent, experiment: Path) -> dict[str, Any]:
     """The best agent of a condition: as it lives in the page, and figures that lie beside its run."""
+    figures, refused = _figures_beside(agent)
     return {
         "condition": TITLES[found.condition],
         "what": standing_of_best(found),
         "seed": agent.run.config.seed,
         "generation": agent.generation,
         "rank": agent.rank,
-        "source": str(agent.run.path.relative_to(experiment)),
+        "source": shlex.quote(str(agent.run.path.relative_to(experiment))),
         "player": _player(found, agent),
-        "figures": list(_figures_beside(agent)),
+        "figures": figures,
+        "refused": refused,
     }
 
 
@@ -143,18 +148,25 @@ def _classes(shown: Results) -> dict[str, Any]:
     }
 
 
-def _figures_beside(agent: NotableAgent) -> Iterable[tuple[str, str]]:
-    """(caption, picture) of what was drawn for exactly this agent."""
+def _figures_beside(agent: NotableAgent) -> tuple[list[tuple[str, str]], list[str]]:
+    """(caption, picture) of what was drawn for exactly this agent; a sentence for each that is not shown."""
     stem = f"generation-{agent.generation:06d}-rank-{agent.rank}"
+    figures, refused = [], []
     for folder, caption in FIGURE_FOLDERS.items():
         for path in sorted((agent.run.path / folder).glob(f"{stem}*.svg")):
             what = path.stem.removeprefix(stem).strip("-").replace("-", " ")
-            yield (f"{caption}: {what}" if what else caption), file_uri(path)
+            try:
+                figures.append((f"{caption}: {what}" if what else caption, file_uri(path)))
+            except (ValueError, OSError) as error:
+                refused.append(f"{path} is not shown: {error}")
+    return figures, refused
 
 
 def _films(experiment: Path, home: Path) -> Iterable[tuple[str, str]]:
-    """(name, relative link) of every film that lies beside the runs."""
+    """(name, relative link) of every film that lies beside the runs; links and unfinished files are none."""
     films = [*experiment.glob("videos/[!.]*.mp4"), *experiment.glob("*/*/videos/[!.]*.mp4")]
     for path in sorted(films):
+        if path.is_symlink() or path.parent.is_symlink() or not path.is_file():
+            continue
         parts = [part for part in path.relative_to(experiment).parts[:-1] if part != "videos"]
-        yield ", ".join([*parts, path.stem.replace("-", " ")]), os.path.relpath(path, home)
+        yield ", ".join([*parts, path.stem.replace("-", " ")]), link_to(path, home)

@@ -42,6 +42,18 @@ def analyse(experiment: Experiment) -> Results:
     return Results(experiment, conditions, comparisons, published)
 
 
+def check_some_tested(results: Results) -> None:
+    """Refuse an analysis without a single run.
+
+    Raises:
+        ValueError: With what the first run lacks, and the command that makes it.
+    """
+    if not any(len(each.runs) for each in results.conditions.values()):
+        first, others = results.missing[0], len(results.missing) - 1
+        more = f" (likewise {others} more)" if others else ""
+        raise ValueError(f"{results.experiment.path} has no run that can be analysed: {first}{more}")
+
+
 def interval_of_mean(values: NDArray[np.float64]) -> tuple[float, float]:
     """95 % bootstrap interval of the mean over runs, the same whenever it is asked for."""
     return mean_interval(values, generator(0, Purpose.STATISTICS))

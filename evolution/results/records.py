@@ -203,4 +203,4 @@ class Results:
     def missing(self) -> tuple[str, ...]:
         """One sentence for everything that is missing or was left out."""
         left_out = [sentence for found in self.conditions.values() for sentence in found.missing]
-        return (*self.experiment.unreadable, *self.experiment.absent, *left_out)
+        return (*self.experiment.unreadable, *self.experiment.copies, *self.experiment.absent, *left_out)

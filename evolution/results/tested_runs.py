@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from shlex import quote
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,7 +75,7 @@ def unfinished(run: RunFolder) -> str:
     if not standing.finished:
         return f"{standing.generations} generations so far; go on with: {_evolve_command(run)}"
     if standing.tested < standing.to_test:
-        return f"not post-evaluated; go on with: wordarm postevaluate {run.path}"
+        return f"not post-evaluated; go on with: wordarm postevaluate {quote(str(run.path))}"
     return ""
 
 
@@ -98,7 +99,7 @@ def _read(run: RunFolder) -> TestedRun:
 def _evolve_command(run: RunFolder) -> str:
     """What goes on with a run."""
     condition, seed = run.config.condition, run.config.seed
-    command = f"wordarm evolve --condition={condition} --seed={seed} --output={run.path}"
+    command = f"wordarm evolve --condition={condition} --seed={seed} --output={quote(str(run.path))}"
     if run.config.differences(RunConfig(condition, seed)):
         command += ", with the settings and readings of its config.toml as flags"
     return command

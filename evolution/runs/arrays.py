@@ -17,6 +17,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.files import NoFileError, read_file
+
 # Far above any file of this project; keeps a mistaken or malicious file from filling the memory.
 LARGEST_CONTENT: Final = 64 * 2**20
 MOST_ARRAYS: Final = 100
@@ -29,6 +31,8 @@ HEADERS: Final = {
     (2, 0): np.lib.format.read_array_header_2_0,
 }
 ENDING: Final = ".npy"
+# How an archive's directory begins what it tells of a member.
+ENTRY: Final = b"PK\x01\x02"
 
 
 class UnreadableError(ValueError):
@@ -43,14 +47,12 @@ def read_genotype_file(path: Path) -> Mapping[str, NDArray]:
         OSError: If it cannot be read.
     """
     refusal = f"{path} is not a genotype file: give an .npz with an array genotypes [P, 84], or an .npy"
-    if path.stat().st_size > LARGEST_CONTENT:
-        raise ValueError(f"{refusal}; this file is larger than {LARGEST_CONTENT // 2**20} MB")
-    data = path.read_bytes()
     try:
+        data = read_file(path, LARGEST_CONTENT)
         if zipfile.is_zipfile(io.BytesIO(data)):
             return unpack_archive(data)
         return {"genotypes": unpack_array(data)}
-    except UnreadableError as error:
+    except (NoFileError, UnreadableError) as error:
         raise ValueError(f"{refusal} ({error})") from None
 
 
@@ -60,6 +62,8 @@ def unpack_archive(data: bytes) -> dict[str, NDArray]:
     Raises:
         UnreadableError: If it is none, or its content is larger than `LARGEST_CONTENT`.
     """
+    if data.count(ENTRY) > MOST_ARRAYS:  # told before a list of them is made
+        raise UnreadableError(f"it holds more than {MOST_ARRAYS} arrays")
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             members = archive.infolist()
@@ -108,7 +112,7 @@ def unpack_array(data: bytes) -> NDArray:
 
 
 def _content(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> bytes:
-    """What a member holds; asked for so many bytes, the reader swells it no further than it tells of."""
+    """The bytes of a member; unpacked no further than its size, which may be a lie."""
     with archive.open(member) as file:
         return file.read(member.file_size)
 

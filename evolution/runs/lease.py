@@ -29,6 +29,7 @@ from functools import cache
 from pathlib import Path
 from typing import Final
 
+from arm2d.files import NoFileError, handle_of_new, read_with_status
 from evolution.runs.folder import LEASE
 
 RENEWAL: Final = 15.0  # [s] between two touches
@@ -39,6 +40,7 @@ GIVE_UP: Final = LAPSE - 2 * RENEWAL
 TOLERANCE: Final = 1.0
 # Whoever takes over looks again after this time [s], in case another did so in the same moment.
 SETTLE: Final = 2.0
+LONGEST: Final = 10_000  # [bytes]
 # Exit code of a process that lost its lease; not 2, for it is nobody's mistake.
 EXIT_CODE: Final = 75
 
@@ -97,7 +99,10 @@ def leased(folder: Path, *, lock_held: bool, on_loss: Callable[[str], None] | No
 
 def held_elsewhere(folder: Path) -> bool:
     """Whether a process of another machine seems to be at work; asked without writing anything."""
-    holder, touched = _read(folder / LEASE)
+    try:
+        holder, touched = _read(folder / LEASE)
+    except OSError:  # no lease of ours
+        return False
     # Nothing being written, the clock of the server is unknown; a date far from ours is no sign of life.
     return holder is not None and holder.kernel != this_kernel() and abs(time.time() - touched) < LAPSE
 
@@ -148,7 +153,8 @@ def _write_beside(path: Path, mine: Holder) -> Path:
     """A file with the lease's content, to be linked or renamed."""
     temporary = path.with_name(f".{path.name}-{mine.token}.tmp")
     try:
-        temporary.write_text(json.dumps(asdict(mine)) + "\n", encoding="utf-8")
+        with os.fdopen(handle_of_new(temporary), "w", encoding="utf-8") as file:
+            file.write(json.dumps(asdict(mine)) + "\n")
     except OSError as error:
         temporary.unlink(missing_ok=True)
         raise OSError(f"{path} cannot be written: {error.strerror}; put this right first") from None
@@ -158,14 +164,15 @@ def _write_beside(path: Path, mine: Holder) -> Path:
 def _read(path: Path) -> tuple[Holder | None, float]:
     """The holder, if it can be read, and when the lease was touched; opening it asks the file server anew."""
     try:
-        with path.open(encoding="utf-8") as file:
-            touched = os.fstat(file.fileno()).st_mtime
-            try:
-                return Holder(**json.load(file)), touched
-            except (ValueError, TypeError, RecursionError):
-                return None, touched
+        data, status = read_with_status(path, LONGEST, links=False)
     except FileNotFoundError:
         return None, float("-inf")
+    except NoFileError as error:
+        raise OSError(f"{path} is no lease ({error}); remove it") from None
+    try:
+        return Holder(**json.loads(data)), status.st_mtime
+    except (ValueError, TypeError, RecursionError):
+        return None, status.st_mtime
 
 
 def _server_time(folder: Path) -> float:
@@ -193,7 +200,7 @@ def _renew(path: Path, mine: Holder, released: threading.Event, on_loss: Callabl
             if (holder := _read(path)[0]) not in (mine, None):
                 on_loss(f"{holder.host} has taken over {path.parent}; this process ends and writes no more")
                 return
-            os.utime(path)
+            os.utime(path, follow_symlinks=False)
             touched = _now()
         if _now() - touched > GIVE_UP:
             on_loss(f"{path} cannot be touched; this process ends before another machine takes over")

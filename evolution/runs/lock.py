@@ -10,13 +10,13 @@ import errno
 import fcntl
 import os
 import re
-import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from arm2d.files import LinkError, handle_to_rewrite
 from evolution.runs.folder import CONFIG, LOCK
 from evolution.runs.lease import RunInUseError, leased
 
@@ -26,8 +26,6 @@ LONGEST: Final = 200  # [bytes]
 PATTERN: Final = re.compile(rb"(\d{1,10})\n(?:(\d{1,7}) (\d{1,3}\.\d{6})\n)?")
 # What file systems answer that keep no locks.
 NO_LOCKS: Final = (errno.ENOSYS, errno.ENOLCK, errno.ENOTSUP)
-# A link is not followed: what it leads to is nobody's lock.
-FLAGS: Final = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC
 
 
 @dataclass(frozen=True)
@@ -135,14 +133,12 @@ def _lock(descriptor: int, folder: Path) -> bool:
 def _opened(path: Path) -> Iterator[int]:
     """The lock file, made if need be, for reading and writing."""
     try:
-        descriptor = os.open(path, FLAGS, 0o666)
+        descriptor = handle_to_rewrite(path)
+    except LinkError as error:
+        raise OSError(str(error)) from None
     except OSError as error:
-        if error.errno == errno.ELOOP:
-            raise OSError(f"{path} is a symbolic link, which is not followed; remove it") from None
         raise OSError(f"{path.parent} cannot be written: {error.strerror}; choose another folder") from None
     try:
-        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
-            raise OSError(f"{path} is no file; remove it")
         yield descriptor
     finally:
         os.close(descriptor)

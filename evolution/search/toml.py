@@ -8,6 +8,8 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Final, TypeVar
 
+from arm2d.files import read_file
+
 T = TypeVar("T")
 
 # A config.toml has some 700 characters.
@@ -20,8 +22,7 @@ KINDS: Final = {bool: "true or false", int: "a whole number", str: "text in quot
 
 def read_toml_file(path: Path) -> dict[str, Any]:
     """The values of a file, of which no more is read than is allowed; raises as `read_toml`."""
-    with path.open(encoding="utf-8", newline="") as file:
-        return read_toml(file.read(LONGEST_TEXT + 1))
+    return read_toml(read_file(path, 4 * LONGEST_TEXT).decode())
 
 
 def read_toml(text: str, longest: int = LONGEST_TEXT) -> dict[str, Any]:

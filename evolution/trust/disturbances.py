@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Final
 
+from arm2d.files import handle_to_overwrite
 from evolution.answers import BAD_INPUT
 from evolution.child import python
 from evolution.runs.folder import CHAMPIONS, CHECKPOINT, RunFolder
@@ -60,7 +61,8 @@ def damage_and_repair(run: Path, rng: random.Random, tally: Tally, at_once: int 
     for file in rng.sample(files, min(at_once, len(files))):
         how = rng.choice(sorted(DAMAGES))
         before[file] = file.read_bytes()
-        file.write_bytes(DAMAGES[how](before[file], rng))
+        with os.fdopen(handle_to_overwrite(file), "wb") as damaged:
+            damaged.write(DAMAGES[how](before[file], rng))
         tally.damages[how, stage_of(file)] += 1
     notes: list[str] = []
     repair(run, notes.append)

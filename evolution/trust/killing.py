@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import time
 from collections.abc import Callable
@@ -10,11 +11,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
+from arm2d.files import handle_to_overwrite, is_temporary
 from evolution.answers import BAD_INPUT
 from evolution.child import python
 from evolution.runs.lock import last_word
 from evolution.runs.storage import make_folder
-from evolution.trust.stages import RUN_FOLDERS, SHARES, Schedule, is_temporary, stage_of, temporaries
+from evolution.trust.stages import RUN_FOLDERS, SHARES, Schedule, stage_of, temporaries
 from evolution.trust.tally import ORPHAN, PARENT, STARTER, WORKER, Tally
 from evolution.trust.victims import kill, members, names, session_of, starts_workers
 from evolution.trust.watch import OpenedFiles
@@ -115,7 +117,7 @@ def _make_watched_folders(ordeal: Ordeal) -> list[Path]:
 def _one_parent(ordeal: Ordeal, opened: OpenedFiles) -> int:
     """From a start of the parent to its end; its exit code."""
     ordeal.tally.starts += 1
-    with (ordeal.folder / LOG).open("wb") as log:
+    with os.fdopen(handle_to_overwrite(ordeal.folder / LOG), "wb") as log:
         parent = subprocess.Popen(  # noqa: S603 - our own program
             python("-m", "evolution", *ordeal.command),
             stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
@@ -126,7 +128,7 @@ def _one_parent(ordeal: Ordeal, opened: OpenedFiles) -> int:
     due = time.monotonic() + rng.uniform(0.0, OTHER_KILL_WITHIN)
     while parent.poll() is None:
         for each in opened.wait(WAIT):
-            if is_temporary(each):
+            if is_temporary(each.name):
                 _perhaps_kill_at_a_write(ordeal, each)
         if is_due and time.monotonic() >= due and not ordeal.over:
             is_due = False

@@ -14,7 +14,7 @@ from typing import Final
 from arm2d import Condition
 from evolution.child import python
 from evolution.experiments.plan import Plan
-from evolution.runs.storage import make_folder
+from evolution.runs.storage import make_folder, write_atomically
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.trust.disturbances import (
@@ -136,7 +136,7 @@ def _make_anew(folder: Path) -> None:
     _refuse_foreign(folder)
     shutil.rmtree(folder, ignore_errors=True)
     make_folder(folder)
-    (folder / MARK).write_text("wordarm torture made this folder, and removes it.\n", encoding="utf-8")
+    write_atomically(folder / MARK, b"wordarm torture made this folder, and removes it.\n")
 
 
 def _refuse_foreign(folder: Path) -> None:

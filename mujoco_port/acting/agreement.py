@@ -22,12 +22,14 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
 from arm2d.cache import sources_digest
+from arm2d.files import handle_to_append, read_file, write_whole
 from arm2d.records import brief
 from models.robots import get_robot
 
 Loop = Literal["open", "delayed", "geometric", "camera"]
 AREAS: Final = ("right", "left")
 MARK: Final = "# "
+LARGEST: Final = 256 * 2**20  # [bytes], a million trials
 # Whose code decides what becomes of a trial in either world.
 PACKAGES: Final = ("arm2d", "models", "mujoco_port")
 SAFE_PATH: Final = "PYTHONSAFEPATH"
@@ -116,7 +118,7 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
     left = listed[len(known) :]
     if not left:
         return
-    with path.open("a", encoding="utf-8", newline="") as file:
+    with os.fdopen(handle_to_append(path), "a", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         if not known and file.tell() == 0:
             file.write(mark + "\n")
@@ -171,7 +173,10 @@ def fingerprint(listed: Sequence[Job], robot: str) -> str:
 
 def _read(path: Path, mark: str) -> list[Outcome]:
     """The outcomes in a file of ours; a last line that was not written to its end is cut off."""
-    whole = path.read_text(encoding="utf-8")
+    try:
+        whole = read_file(path, LARGEST).decode()
+    except ValueError as error:
+        raise ValueError(f"{path} cannot be read ({error}); choose another file") from None
     if not whole:
         return []
     if not whole.startswith(mark + "\n"):
@@ -180,7 +185,7 @@ def _read(path: Path, mark: str) -> list[Outcome]:
         )
     lines = whole[: whole.rfind("\n") + 1]
     if lines != whole:
-        path.write_text(lines, encoding="utf-8")
+        write_whole(path, lines.encode())
     rows = list(csv.reader(lines.splitlines()[2:]))
     try:
         return [_outcome(row) for row in rows]

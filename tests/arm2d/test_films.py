@@ -244,3 +244,12 @@ def test_without_an_encoder_nothing_is_drawn(tmp_path, monkeypatch, program, sen
     assert not os.listdir(tmp_path)
     monkeypatch.delenv("IMAGEIO_FFMPEG_EXE")
     assert Path(find_encoder()).is_file()
+
+
+def test_no_picture_is_written_behind_a_link_of_somebody_else(tmp_path, other_user):
+    (tmp_path / "home").mkdir()
+    (tmp_path / "videos").symlink_to("home")
+    os.lchown(tmp_path / "videos", other_user, other_user)
+    with pytest.raises(OSError, match="is a symbolic link that belongs to another user"):
+        write_png(np.zeros((2, 2, 3), np.uint8), tmp_path / "videos" / "a.png")
+    assert list((tmp_path / "home").iterdir()) == []

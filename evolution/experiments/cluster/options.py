@@ -55,7 +55,8 @@ class SlurmOptions:
     """Lines of the job script before the worker, such as 'module load python'."""
 
     tls: bool | None = None
-    """Encrypt, and let nobody in but this command and its workers. By default yes, by keys made anew."""
+    """Encrypt, and let nobody in but this command and its workers. By default yes, by keys made anew.
+    Without, whoever reaches the scheduler can run programs as you: with lo every user of this machine."""
 
     def complete(self, file: Path | None = None) -> SlurmOptions:
         """The same with what a file says, then with the defaults, where nothing is said.

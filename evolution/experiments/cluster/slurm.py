@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import fcntl
 import re
 import shlex
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, Final
 
+import dask.config
 import psutil
 from dask_jobqueue.slurm import SLURMCluster, SLURMJob
 from distributed import Client
@@ -19,16 +18,14 @@ from distributed.security import Security
 
 from evolution.child import python
 from evolution.experiments.cluster.connection import Connection
+from evolution.experiments.cluster.keys import folder_for_keys, own_keys
 from evolution.experiments.cluster.options import LOOPBACK, SlurmOptions
 from evolution.runs.storage import make_folder
 
-KEY_FILES: Final = (
-    "tls_ca_file",
-    *(f"tls_{who}_{what}" for who in ("client", "scheduler", "worker") for what in ("key", "cert")),
-)
-KEYS: Final = "keys-"  # how the names of folders for keys begin
-IN_USE: Final = "in-use"  # a file in them, locked by the command that made them
 DEATH_TIMEOUT: Final = 300  # [s] a worker looks for a scheduler
+# Every local user could ask these processes over HTTP what they do, TLS or not: they answer nothing.
+NO_PAGES: Final = {"distributed.scheduler.http.routes": []}
+NO_PAGES_OF_WORKERS: Final = "export DASK_DISTRIBUTED__WORKER__HTTP__ROUTES='[]'"
 # What sbatch would take for something else in a name of a file, even in quotes.
 NOT_IN_A_NAME: Final = re.compile(r"""["'\\]""")
 
@@ -89,10 +86,11 @@ def slurm_cluster(options: SlurmOptions, folder: Path) -> Iterator[Connection]:
     cluster: Any
     with (
         folder_for_keys(logs) as keys,
+        dask.config.set(NO_PAGES),
         SLURMCluster(
             **job_options,
             job_cls=QuotedJob,  # pyright: ignore - a class is meant
-            security=_own_keys(keys) if options.tls else None,
+            security=own_keys(keys) if options.tls else None,
             # The scheduler's pages about itself: for this machine only, whatever the interface.
             scheduler_options={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
         ) as cluster,
@@ -107,49 +105,11 @@ def slurm_cluster(options: SlurmOptions, folder: Path) -> Iterator[Connection]:
             yield connection
 
 
-@contextmanager
-def folder_for_keys(logs: Path) -> Iterator[Path]:
-    """While open, a folder that nobody else may look into; those of commands that were killed are removed."""
-    with TemporaryDirectory(prefix=KEYS, dir=logs) as name:
-        keys = Path(name)
-        with (keys / IN_USE).open("w") as mark:
-            fcntl.flock(mark, fcntl.LOCK_EX)
-            for other in logs.glob(f"{KEYS}*/{IN_USE}"):
-                if other.parent != keys and _is_free(other):
-                    shutil.rmtree(other.parent, ignore_errors=True)
-            yield keys
-
-
-def _is_free(mark: Path) -> bool:
-    """Whether the command that locked a file is no more."""
-    try:
-        with mark.open("rb") as file:
-            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-            return True
-    except OSError:
-        return False
-
-
 def _loopback_note(options: SlurmOptions, logs: Path) -> str:
     note = f", and at {logs} for those that ended"
     if options.interface == LOOPBACK:
         note += "; by --slurm.interface lo only workers on this machine reach the scheduler"
     return note
-
-
-def _own_keys(folder: Path) -> Security:
-    """Keys made for this one time, in files of a folder."""
-    try:
-        made = Security.temporary()
-    except ImportError:
-        raise ValueError(
-            "keys for TLS need the package cryptography; install it with: pip install 'wordarm[cluster]'"
-        ) from None
-    files = {}
-    for name in KEY_FILES:
-        (folder / name).write_text(getattr(made, name), encoding="ascii")
-        files[name] = str(folder / name)
-    return Security(require_encryption=True, **files)
 
 
 def _logs(folder: Path) -> Path:
@@ -174,7 +134,7 @@ def _job_options(options: SlurmOptions, logs: Path) -> dict[str, Any]:
             f"--output={_word_for_sbatch(logs / 'wordarm-%J.out')}",
             *directives,
         ],
-        "job_script_prologue": list(options.prologue or ()),
+        "job_script_prologue": [NO_PAGES_OF_WORKERS, *(options.prologue or ())],
         "job_name": "wordarm",
         # Followed by -m and the module of a Dask worker.
         "python": shlex.join(python()),

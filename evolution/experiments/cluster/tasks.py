@@ -6,6 +6,7 @@ killed or runs out of memory, signals reach the job, and jobs of one worker do n
 
 from __future__ import annotations
 
+import os
 import subprocess
 import time
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from typing import Final
 
 from distributed import get_worker
 
+from arm2d.files import handle_to_append
 from evolution.child import calling, reference
 from evolution.experiments.cluster.agreement import Order, disagreement
 from evolution.experiments.cluster.leash import perform_on_a_leash
@@ -48,7 +50,7 @@ class LeashedWorker(Worker):
 
     def _begin(self) -> None:
         job = {"function": self.job.function, "arguments": self.job.arguments}
-        with self.job.log.open("ab") as log:
+        with os.fdopen(handle_to_append(self.job.log), "ab") as log:
             self._process = subprocess.Popen(  # noqa: S603 - our own program
                 calling(reference(perform_on_a_leash), job),
                 stdin=subprocess.PIPE,

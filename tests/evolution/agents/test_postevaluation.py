@@ -124,6 +124,27 @@ def test_an_unreadable_run_and_a_missing_seed_are_named(experiment, tmp_path):
     assert results.conditions[Condition.WITH_INDICATE].seeds.tolist() == [2]
 
 
+def test_a_run_copied_inside_its_experiment_is_counted_once_and_named(experiment, tmp_path):
+    copy = shutil.copytree(experiment, tmp_path / "copy")
+    original = copy / "with-indicate" / "seed-0002"
+    for name in ("seed-0002 (copy)", "backup", "seed-0001.old"):
+        shutil.copytree(original, copy / "with-indicate" / name)
+    results = analyse(open_experiment(copy))
+    assert results.conditions[Condition.WITH_INDICATE].seeds.tolist() == [1, 2]
+    assert results.conditions[Condition.WITH_INDICATE].runs[1].path == original
+    assert sorted(results.missing) == sorted(
+        f"{copy / 'with-indicate' / name} holds the same run as {original} (configuration and seed), "
+        "which is counted once; move the copy elsewhere"
+        for name in ("seed-0002 (copy)", "backup", "seed-0001.old")
+    )
+
+
+def test_runs_that_differ_in_anything_but_their_folder_are_no_copies(experiment):
+    runs = open_experiment(experiment)
+    assert len(runs.all_runs) == 4
+    assert runs.copies == ()
+
+
 def test_an_unfinished_run_is_told_how_to_go_on(tmp_path):
     config = RunConfig(Condition.WITH_IGNORE, 3)
     run = RunFolder.create(tmp_path / "with-ignore" / "seed-0003", config)
@@ -131,6 +152,18 @@ def test_an_unfinished_run_is_told_how_to_go_on(tmp_path):
     command = f"wordarm evolve --condition=with-ignore --seed=3 --output={run.path}"
     assert sentence == f"with-ignore, seed 3: left out, 0 generations so far; go on with: {command}"
     assert parse(command.split()[1:]).config == config
+
+
+def test_an_experiment_without_a_tested_run_is_not_analysed_and_nothing_is_written(
+    finished_run, tmp_path, capsys
+):
+    run = shutil.copytree(finished_run, tmp_path / "an experiment" / "with-indicate" / "seed-0011")
+    before = sorted(tmp_path.rglob("*"))
+    assert main(["analyse", str(tmp_path / "an experiment")]) == 2
+    error = capsys.readouterr().err
+    assert "an experiment has no run that can be analysed: with-indicate, seed 11: left out, not " in error
+    assert error.endswith(f"post-evaluated; go on with: wordarm postevaluate '{run}'\n")
+    assert sorted(tmp_path.rglob("*")) == before
 
 
 def test_tests_go_on_past_a_damaged_run_and_end_with_its_name(experiment, tmp_path, capsys):

@@ -178,7 +178,7 @@ def test_a_machine_that_sees_another_folder_says_so(tmp_path):
     ("address", "sentence"),
     [
         ("tcp://127.0.0.1:1", "no scheduler answers at tcp://127.0.0.1:1; start one with: dask scheduler"),
-        ("somewhere", "'somewhere' is not the address of a scheduler; give one such as tcp://10.0.0.1:8786"),
+        ("somewhere", "'somewhere' is not the address of a scheduler; give one such as tls://10.0.0.1:8786"),
         ("http://127.0.0.1:80", "'http://127.0.0.1:80' is not the address of a scheduler"),
         ("", "'' is not the address of a scheduler"),
     ],

@@ -8,6 +8,7 @@ import time
 import pytest
 
 from evolution.child import reference
+from evolution.experiments import warm_workers
 from evolution.experiments.jobs import MOST_RESTARTS, Overseer, finished_files, run_jobs
 from evolution.experiments.stages import evolve_run
 from evolution.experiments.warm_workers import WarmStart
@@ -138,6 +139,15 @@ def test_a_run_whose_worker_is_killed_equals_an_undisturbed_one(finished_run, tm
     assert run_jobs([[job]], at_once=1, overseer=Overseer(on_tick=kill_twice)) == ()
     assert killed
     assert contents(path) == contents(finished_run)
+
+
+def test_the_fork_server_is_reached_by_no_path(tmp_path):
+    """A socket with a name could be spoken to by others."""
+    server = warm_workers._Server(tmp_path / "workers.log")
+    try:
+        assert server._socket.getsockname() == server._socket.getpeername() == ""
+    finally:
+        server.close()
 
 
 def long_job(folder, name="long"):

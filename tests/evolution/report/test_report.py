@@ -7,6 +7,7 @@ from base64 import b64decode
 from dataclasses import replace
 from html import unescape
 from html.parser import HTMLParser
+from urllib.parse import quote
 
 import numpy as np
 import pytest
@@ -255,7 +256,7 @@ def test_films_beside_the_runs_are_linked(results, experiment):
         (film.parent / leftover).touch()  # of a process that was killed
     text = render(results, experiment.parent)
     shutil.rmtree(film.parent)
-    place = f"{experiment.name}/with-ignore/seed-0001/videos/champion-touch-green.mp4"
+    place = f"./{quote(experiment.name)}/with-ignore/seed-0001/videos/champion-touch-green.mp4"
     elements = Page(text).elements
     assert [a["href"] for tag, a in elements if tag == "a" and "mp4" in a["href"]] == [place]
     assert [a["src"] for tag, a in elements if tag == "video"] == [place]

@@ -127,7 +127,7 @@ def test_a_file_that_would_fill_the_memory_is_refused(tmp_path, monkeypatch):
     with pytest.raises(ValueError, match="its content is larger than"):
         find_agent(str(tmp_path / "bomb.npz"))
     np.save(tmp_path / "large.npy", np.zeros((1000, 84)))
-    with pytest.raises(ValueError, match="this file is larger than"):
+    with pytest.raises(ValueError, match="it is larger than"):
         find_agent(str(tmp_path / "large.npy"))
 
 

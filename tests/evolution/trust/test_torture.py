@@ -7,11 +7,12 @@ import sys
 
 import pytest
 
+from arm2d.files import final_name, is_temporary
 from evolution.child import calling
 from evolution.runs.folder import RunFolder
 from evolution.trust.disturbances import DAMAGES, _must_be_refused, damage_and_repair
 from evolution.trust.killing import TortureError, _unfinished
-from evolution.trust.stages import Schedule, final_name, is_temporary, stage_of, temporaries
+from evolution.trust.stages import Schedule, stage_of, temporaries
 from evolution.trust.tally import PARENT, WORKER, Tally
 from evolution.trust.torture import MARK, Torture, _compare, _make_anew, torture
 from evolution.trust.victims import kill, members, names
@@ -64,9 +65,9 @@ def test_a_process_of_another_session_is_spared(sleeper):
 
 
 def test_temporary_files_tell_what_was_being_written(tmp_path):
-    file = tmp_path / "run" / "parts" / ".gen-000000-000099.npz.tmp"
-    assert is_temporary(file)
-    assert final_name(file) == "gen-000000-000099.npz"
+    file = tmp_path / "run" / "parts" / ".gen-000000-000099.npz.0123456789abcdef.tmp"
+    assert is_temporary(file.name)
+    assert final_name(file.name) == "gen-000000-000099.npz"
     assert stage_of(file) == "part"
     assert stage_of(tmp_path / "run" / ".checkpoint.npz.tmp") == "checkpoint"
     assert stage_of(tmp_path / "run" / "postevaluation" / ".solved.npz.tmp") == "solved trials"
