@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo reproduce test lint format bench clean
+.PHONY: help setup demo reproduce test lint audit format bench clean
 
 help:  ## what there is to make
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -25,6 +25,7 @@ reproduce: $(READY)  ## the whole paper, from random genotypes to the report in 
 	$(BIN)/wordarm reproduce
 
 test: $(READY)  ## all tests, on all cores
+	@sh scripts/browser.sh
 	$(BIN)/python -m pytest -n auto --dist worksteal
 
 lint: $(READY)  ## style, types, and who imports whom
@@ -32,6 +33,11 @@ lint: $(READY)  ## style, types, and who imports whom
 	$(BIN)/ruff format --check .
 	$(BIN)/pyright --pythonpath $(BIN)/python
 	$(BIN)/lint-imports --no-logo
+
+audit: $(READY)  ## known vulnerabilities of the pinned packages; asks the internet
+	$(BIN)/python -m venv $(VENV)/audit
+	$(VENV)/audit/bin/pip install -q pip-audit
+	$(VENV)/audit/bin/pip-audit --strict -r constraints.txt --no-deps --disable-pip
 
 format: $(READY)  ## rewrite the sources in the project's style
 	$(BIN)/ruff check --fix .

@@ -3,21 +3,22 @@
 No option that reorders or fuses floating-point operations is used, so compiled code gives the bits
 of plain Python (arm2d.arithmetic says why that matters).
 
-Numba looks only at a function's own file when it decides whether cached machine code is still valid,
-and would miss a change in a function called from another file. The cache therefore lives in a folder
-named after the sources of the whole package.
+Machine code is kept where `arm2d.cache` says. Numba would run whatever lies there: files are therefore
+sealed by a checksum, and what is damaged is compiled again. A full disk costs the cache, not the command.
 """
 
 from __future__ import annotations
 
-import hashlib
-import os
+import pickle
+import warnings
 from collections.abc import Callable
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numba
+from numba.core.caching import FunctionCache, IndexDataCacheFile
+
+from arm2d.cache import CacheWarning, cache_folder, sealed, unsealed
 
 
 def compiled(function: Callable | None = None, *, allocates: bool = True, **options: Any) -> Any:
@@ -30,32 +31,76 @@ def compiled(function: Callable | None = None, *, allocates: bool = True, **opti
         options: Those of `numba.njit`.
     """
     if function is None:
-        return lambda each: compiled(each, allocates=allocates, **options)
+        return lambda function: compiled(function, allocates=allocates, **options)
     if not allocates:
         options["_nrt"] = False
-    folder, previous = cache_folder(), numba.config.CACHE_DIR  # type: ignore[attr-defined]
+    dispatcher = numba.njit(function, error_model="numpy", **options)
+    if (folder := cache_folder()) is not None:
+        _keep(dispatcher, function, folder)
+    return dispatcher
+
+
+def _keep(dispatcher: Any, function: Callable, folder: str) -> None:
+    """Let what is compiled be kept in a folder."""
+    previous = numba.config.CACHE_DIR  # type: ignore[attr-defined]
     try:
-        numba.config.CACHE_DIR = folder or previous  # type: ignore[attr-defined] - read while decorating
-        return numba.njit(function, error_model="numpy", cache=folder is not None, **options)
+        numba.config.CACHE_DIR = folder  # type: ignore[attr-defined] - read while a cache is made
+        kept = _SealedCache(function)
+    except RuntimeError:  # no place that Numba likes
+        return
     finally:
         numba.config.CACHE_DIR = previous  # type: ignore[attr-defined]
+    # Where this folder fails, Numba goes on to others.
+    if Path(folder) in Path(kept.cache_path).parents:
+        dispatcher._cache = kept
 
 
-@cache
-def cache_folder() -> str | None:
-    """Where machine code is kept, below the user's cache folder; None if nothing can be written there."""
-    home = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    folder = Path(home) / "wordarm" / f"kernel-{_sources_digest()}"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError:
-        return None
-    return str(folder) if os.access(folder, os.W_OK) else None
+class _SealedFile(IndexDataCacheFile):
+    """Numba's index and data files, each behind a checksum of its content."""
+
+    def _load_index(self) -> dict:
+        found = _read(Path(self._index_path))
+        return found[1] if found and found[0] == (self._version, self._source_stamp) else {}
+
+    def _save_index(self, overloads: dict) -> None:
+        self._write(self._index_path, ((self._version, self._source_stamp), overloads))
+
+    def _load_data(self, name: str) -> Any:
+        found = _read(Path(self._data_path(name)))
+        if found is None:
+            raise OSError(f"{name} is damaged")  # for Numba: as if it were not there
+        return found
+
+    def _save_data(self, name: str, data: Any) -> None:
+        self._write(self._data_path(name), data)
+
+    def _write(self, path: str, content: Any) -> None:
+        with self._open_for_write(path) as file:
+            file.write(sealed(self._dump(content)))
 
 
-def _sources_digest() -> str:
-    """Changes with any source file of this package."""
-    digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.rglob("*.py")):
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:12]
+class _SealedCache(FunctionCache):
+    """What was compiled of one function."""
+
+    def __init__(self, function: Callable) -> None:
+        super().__init__(function)
+        locator = self._impl.locator
+        self._cache_file = _SealedFile(self._cache_path, self._impl.filename_base, locator.get_source_stamp())
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        try:
+            super().save_overload(sig, data)
+        except OSError as error:
+            warnings.warn(
+                f"compiled code: {Path(self._cache_path).parent} cannot be written to ({error.strerror}); "
+                "every process compiles what is missing there",
+                CacheWarning,
+                stacklevel=1,
+            )
+
+
+def _read(path: Path) -> Any:
+    """What a sealed file holds; None if it is missing or damaged."""
+    content = unsealed(path)
+    # Numba would read it without a look; arm2d.cache sees to it that only the user can have written it.
+    return None if content is None else pickle.loads(content)  # noqa: S301

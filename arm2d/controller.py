@@ -61,6 +61,9 @@ class Networks:
     motor_bias: NDArray[np.float64]
     gain: NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        return f"<Networks of {len(self.gain)} genotype{'s' * (len(self.gain) != 1)}>"
+
 
 def check_genotypes(genotypes: ArrayLike) -> NDArray[np.float64]:
     """The genotypes as a contiguous array [P, 84]; a single one [84] is a batch of one.

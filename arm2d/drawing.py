@@ -16,14 +16,13 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, Wedge
 
 from arm2d import constants as c
+from arm2d.geometry import camera_position
 from arm2d.instructions import ObjectWord
 from arm2d.trials import TrialRecord
-from arm2d.view import camera_position
 
 Shape = TypeVar("Shape", Circle, Wedge)
 
-# Everybody calls them blue, green and red; with any colour blindness they stay apart, by lightness where not
-# by hue (a test simulates it). They mean the objects everywhere; `models/scene.xml` repeats them.
+# What everybody calls blue, green and red, told apart with any colour blindness; as in `models/scene.xml`.
 OBJECT_COLOURS: Final = {ObjectWord.BLUE: "#1242B2", ObjectWord.GREEN: "#21A366", ObjectWord.RED: "#CC0007"}
 ARM: Final = "#3A3F45"
 JOINT: Final = "#F5F3EE"
@@ -52,12 +51,21 @@ class Scene:
     Args:
         axes: Where to draw; cleared of ticks and scaled to the world.
         record: The trial.
-        caption: Whether to write the instruction above the world and, in the end, how it went.
+        caption: Whether to write the instruction above the world.
         note: A line under the instruction, such as the agent and the trial it is about.
+        outcome: Whether to say how it went, by default with the caption; not of a trial that goes on.
     """
 
-    def __init__(self, axes: Axes, record: TrialRecord, *, caption: bool = True, note: str = "") -> None:
-        self._record, self._caption = record, caption
+    def __init__(
+        self,
+        axes: Axes,
+        record: TrialRecord,
+        *,
+        caption: bool = True,
+        note: str = "",
+        outcome: bool | None = None,
+    ) -> None:
+        self._record, self._outcome = record, caption if outcome is None else outcome
         axes.set(xlim=LIMITS[0], ylim=LIMITS[1], aspect="equal", facecolor=FLOOR, xticks=[], yticks=[])
         axes.spines[:].set_visible(False)
         points = _points_per_cm(axes)
@@ -118,7 +126,7 @@ class Scene:
     def _time(self, step: float) -> str:
         """The clock and, at the end of a captioned trial, whether the instruction was carried out."""
         outcome = ""
-        if self._caption and step == self._record.steps:
+        if self._outcome and step == self._record.steps:
             outcome = "carried out, " if self._record.success else "not carried out, "
         return f"{outcome}{step * c.DT:.1f} s"
 

@@ -1,11 +1,18 @@
-"""Geometry of the arm in plain Python, for the reference: a pose of S2 and its frame, bearings.
+"""Geometry of the arm: S2's frame and bearings in plain Python for the reference, and the view for arrays.
 
-Lengths in [cm], angles in [deg]; a pose is (x, y) of J2 and S2's unit vector.
+Lengths in [cm], angles in [deg]; a pose is (x, y) of J2 and S2's unit vector. What is in view in recorded
+states depends on where the camera sits (reading `camera_origin`); the trial itself judges by `arm2d.kernel`.
 """
+
+from __future__ import annotations
 
 from math import atan2, cos, degrees, hypot, radians, sin
 
+import numpy as np
+from numpy.typing import NDArray
+
 from arm2d import constants as c
+from arm2d.readings import Readings
 
 Point = tuple[float, float]
 Pose = tuple[float, float, float, float]
@@ -50,3 +57,32 @@ def offset_of(alpha: float, point: Point) -> float:
     """d, the smaller angle between S1 and the bearing of a point [deg]."""
     away = abs(bearing_of(point) - alpha)
     return min(away, 360.0 - away)
+
+
+def in_view(
+    alpha: NDArray[np.float64], centres: NDArray[np.float64], readings: Readings
+) -> NDArray[np.bool_]:
+    """Whether a disc's centre lies in the camera's field, its bounds included, [...].
+
+    Args:
+        alpha: [...], angle of S1 in [deg].
+        centres: [..., 2] in [cm].
+        readings: Where the camera sits.
+    """
+    return np.abs(camera_offsets(alpha, centres, readings)) <= c.VIEW_HALF_WIDTH
+
+
+def camera_offsets(
+    alpha: NDArray[np.float64], centres: NDArray[np.float64], readings: Readings
+) -> NDArray[np.float64]:
+    """Bearings of points [..., 2] as the camera sees them, relative to S1, in [-180, 180) degrees."""
+    rest = centres - camera_position(alpha, readings)
+    bearing = np.degrees(np.arctan2(rest[..., 1], rest[..., 0]))
+    return (bearing - alpha + 180.0) % 360.0 - 180.0
+
+
+def camera_position(alpha: NDArray[np.float64] | float, readings: Readings) -> NDArray[np.float64]:
+    """Where the camera sits, [..., 2] in [cm]: in J1, or at the end of S1."""
+    length = c.S1_LENGTH if readings.camera_origin == "end" else 0.0
+    angle = np.radians(alpha)
+    return length * np.stack([np.cos(angle), np.sin(angle)], axis=-1)

@@ -61,6 +61,9 @@ class Instruction:
     def __str__(self) -> str:
         return f"{self.action.name} {self.object.name.capitalize()}"
 
+    def __repr__(self) -> str:
+        return f"Instruction.parse('{str(self).lower()}')"
+
 
 class Condition(StrEnum):
     """Which third action stands beside MOVE and TOUCH."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
+from functools import cache
 from itertools import pairwise
 from math import degrees
 from typing import Any, Literal, get_args, get_origin, get_type_hints
@@ -96,6 +97,10 @@ class Readings:
     collision_penalty: Literal["ratio", "whole"] = "ratio"
     """The line of eq. 5 is garbled: P1 scales the distance ratio only, or the whole of F1."""
 
+    def __repr__(self) -> str:
+        other = (each.name for each in fields(self) if getattr(self, each.name) != each.default)
+        return f"Readings({', '.join(f'{name}={getattr(self, name)!r}' for name in other)})"
+
     def __post_init__(self) -> None:
         for name, allowed in choices().items():
             if getattr(self, name) not in allowed:
@@ -171,6 +176,7 @@ class Readings:
         return (right - half, right + half), (left - half, left + half)
 
 
+@cache
 def choices() -> dict[str, tuple[str, ...]]:
     """The allowed values of every reading that is a choice between words."""
     hints = get_type_hints(Readings)

@@ -61,16 +61,29 @@ def run_trial(
     S1 starts at `alpha` [deg], the blue, green and red disc at three (x, y) [cm]. A transition test's
     `changes` are (instruction heard first, instruction heard later, delay); scored is `instruction`.
     """
+    return carry_out(controller(genotype, readings), instruction, alpha, discs, readings, changes)
+
+
+def carry_out(
+    think: Callable[[Sequence[float]], tuple[float, float]],
+    instruction: Instruction,
+    alpha: float,
+    discs: Iterable[Iterable[float]],
+    readings: Readings,
+    changes: tuple[Instruction, Instruction, int] | None = None,
+    *,
+    beta: float = c.BETA_MAX,
+    most_steps: int = c.MAX_STEPS,
+) -> Score:
+    """The same for whatever turns 18 inputs into the turns of S1 and S2; S2 starts at `beta` [deg]."""
     r, target = readings, instruction.object
-    think = controller(genotype, r)
     placed: list[Point] = [(x, y) for x, y in discs]
     sides: list[Side] = [None, None, None]
-    beta = c.BETA_MAX
     heard, later, delay = changes or (instruction, instruction, 0)
     countdown, run, best, stretch = None, 0.0, 0.0, 0.0
     full = goal(instruction.action, r)
     first_offset = offset = offset_of(alpha, placed[target])
-    for step in range(1, c.MAX_STEPS + 1):  # noqa: B007 - the last step's number is part of the score
+    for step in range(1, most_steps + 1):  # noqa: B007 - the last step's number is part of the score
         turn1, turn2 = think(sense(alpha, beta, placed, sides, heard, r))
         new_alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
         new_beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))

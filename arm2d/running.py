@@ -52,9 +52,9 @@ def run_trials(
     if threads < 1:
         raise ValueError(f"asked for {threads} threads; there must be at least 1")
     genes = check_genotypes(genotypes)
-    networks, arrays = decode_flat(genes, readings), _arrays_of(trials)
+    networks, arrays = decode_flat(genes, readings), arrays_of(trials)
     world, tables = world_of(readings), tables_of(readings)._replace(codes=word_codes)
-    outcomes = _empty_outcomes(len(genes), len(trials))
+    outcomes = empty_outcomes(len(genes), len(trials))
 
     def run(part: slice) -> None:
         own = exchange.Outcomes._make(each[part] for each in outcomes)
@@ -87,16 +87,17 @@ def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None =
             f"a recording takes one genotype and one trial, not {len(genes)} and {len(trial)}; "
             "take one by its index, such as genotypes[0] and trials[0]"
         )
-    outcomes = _empty_outcomes(1, 1)
+    outcomes = empty_outcomes(1, 1)
     rows = np.empty((c.MAX_STEPS, exchange.RECORD_COLUMNS))
     networks = decode_flat(genes, readings)
     world, tables = world_of(readings), tables_of(readings)
-    run_population(networks, _arrays_of(trial), world, tables, outcomes, rows)
+    run_population(networks, arrays_of(trial), world, tables, outcomes, rows)
     scores = TrialScores(*outcomes)
-    return _record_of(trial, readings, rows[: scores.steps[0, 0]], scores)
+    rows = rows[: scores.steps[0, 0]]
+    return record_of(trial, readings, rows, _inputs_of(trial, rows), scores)
 
 
-def _arrays_of(trials: Trials) -> exchange.TrialArrays:
+def arrays_of(trials: Trials) -> exchange.TrialArrays:
     """The trials as the kernel takes them: discs by bearing and distance, and the words heard."""
     x, y = trials.discs[..., 0], trials.discs[..., 1]
     heard = np.stack([trials.actions, trials.objects], axis=-1)
@@ -126,7 +127,8 @@ def _bearings_of(centres: NDArray) -> NDArray:
     return bearings
 
 
-def _empty_outcomes(n_genotypes: int, n_trials: int) -> exchange.Outcomes:
+def empty_outcomes(n_genotypes: int, n_trials: int) -> exchange.Outcomes:
+    """Room for what becomes of P genotypes in T trials."""
     shape = (n_genotypes, n_trials)
     return exchange.Outcomes(
         f1=np.empty(shape),
@@ -143,8 +145,10 @@ def _parts(n: int, threads: int) -> list[slice]:
     return [slice(first, last) for first, last in pairwise(bounds)]
 
 
-def _record_of(trial: Trials, readings: Readings, rows: NDArray, scores: TrialScores) -> TrialRecord:
-    """A record from the kernel's rows [K, RECORD_COLUMNS]."""
+def record_of(
+    trial: Trials, readings: Readings, rows: NDArray, inputs: NDArray, scores: TrialScores
+) -> TrialRecord:
+    """A record from the kernel's rows [K, RECORD_COLUMNS] and what was sensed [K, 18]."""
     beta = np.concatenate([[c.BETA_MAX], rows[:, exchange.RECORD_BETA]])
     sides = rows[:, exchange.RECORD_SIDE : exchange.RECORD_SIDE + 3].astype(np.int8)
     return TrialRecord(
@@ -154,7 +158,7 @@ def _record_of(trial: Trials, readings: Readings, rows: NDArray, scores: TrialSc
         beta=beta,
         discs=np.concatenate([trial.discs, _centres_of(trial, rows)]),
         contact=np.concatenate([np.zeros((1, c.N_OBJECTS), np.int8), sides]),
-        inputs=_inputs_of(trial, rows, beta),
+        inputs=inputs,
         states=rows[:, exchange.RECORD_STATE : exchange.RECORD_STATE + c.N_INTER].copy(),
         turns=np.stack([rows[:, exchange.RECORD_TURN], np.diff(beta)], axis=-1),
         scores=scores,
@@ -163,7 +167,7 @@ def _record_of(trial: Trials, readings: Readings, rows: NDArray, scores: TrialSc
 
 def _centres_of(trial: Trials, rows: NDArray) -> NDArray[np.float64]:
     """The discs' centres after every step, [K, 3, 2]; a disc that never moved keeps its bits."""
-    start = _arrays_of(trial)
+    start = arrays_of(trial)
     bearings = rows[:, exchange.RECORD_BEARING : exchange.RECORD_BEARING + 3]
     distances = rows[:, exchange.RECORD_DISTANCE : exchange.RECORD_DISTANCE + 3]
     angles = np.radians(bearings)
@@ -172,16 +176,17 @@ def _centres_of(trial: Trials, rows: NDArray) -> NDArray[np.float64]:
     return np.where(unmoved[..., np.newaxis], trial.discs, centres)
 
 
-def _inputs_of(trial: Trials, rows: NDArray, beta: NDArray) -> NDArray[np.float64]:
+def _inputs_of(trial: Trials, rows: NDArray) -> NDArray[np.float64]:
     """I1 to I18 of every step, [K, 18], as spec section 4 numbers them."""
     touch = np.concatenate([[0], rows[:-1, exchange.RECORD_TOUCH].astype(int)])
     camera = rows[:, exchange.RECORD_CAMERA].astype(int)
-    heard = _arrays_of(trial).heard[0][rows[:, exchange.RECORD_CHANGED].astype(int)]  # [K, 2]
+    beta_before = np.concatenate([[c.BETA_MAX], rows[:-1, exchange.RECORD_BETA]])
+    heard = arrays_of(trial).heard[0][rows[:, exchange.RECORD_CHANGED].astype(int)]  # [K, 2]
     return np.concatenate(
         [
             touch[:, np.newaxis] >> np.arange(2) & 1,
             camera[:, np.newaxis] >> np.arange(9) & 1,
-            beta[:-1, np.newaxis] / c.BETA_MAX,
+            beta_before[:, np.newaxis] / c.BETA_MAX,
             WORD_CODES[heard[:, 1]],
             WORD_CODES[3 + heard[:, 0]],
         ],

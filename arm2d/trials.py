@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +16,7 @@ from arm2d import constants as c
 from arm2d.arithmetic import sin_cos
 from arm2d.instructions import ActionWord, Instruction, ObjectWord
 from arm2d.readings import Readings
+from arm2d.records import brief
 
 MOST_PER_AREA = 100_000
 
@@ -37,6 +38,8 @@ class LabelChanges:
     later_actions: NDArray[np.int64]
     later_objects: NDArray[np.int64]
     delays: NDArray[np.int64]
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         for name, low, high in (
@@ -77,6 +80,11 @@ class Trials:
         _store(self, "discs", np.array(self.discs, dtype=np.float64))
         _check_starts(self)
 
+    def __repr__(self) -> str:
+        asked = len(set(zip(self.actions.tolist(), self.objects.tolist(), strict=True)))
+        changing = "" if self.changes is None else ", words change"
+        return f"<Trials: {len(self)} of {asked} instruction{'s' * (asked != 1)}{changing}>"
+
     def __len__(self) -> int:
         return len(self.actions)
 
@@ -116,6 +124,11 @@ class TrialScores:
     success: NDArray[np.bool_]
     steps: NDArray[np.int64]
 
+    def __repr__(self) -> str:
+        n_genotypes, n_trials = self.success.shape
+        share = f", {100 * self.success.mean():.0f} % carried out" if self.success.size else ""
+        return f"<TrialScores: {n_genotypes} x {n_trials} trials{share}>"
+
     @cached_property
     def fitness(self) -> NDArray[np.float64]:
         """f1 + f2 + f3, [P, T]."""
@@ -150,6 +163,10 @@ class TrialRecord:
     turns: NDArray[np.float64]
     scores: TrialScores
 
+    def __repr__(self) -> str:
+        outcome = "" if self.success else "not "
+        return f"<TrialRecord: {self.instruction}, {outcome}carried out in {self.steps * c.DT:.1f} s>"
+
     @property
     def steps(self) -> int:
         """K, the number of steps made."""
@@ -167,13 +184,27 @@ class TrialRecord:
 
 
 def draw_trials(
-    instructions: Sequence[Instruction], per_area: int, readings: Readings, rng: np.random.Generator
+    instructions: Sequence[Instruction | str] | Instruction | str,
+    per_area: int,
+    readings: Readings,
+    rng: np.random.Generator,
 ) -> Trials:
     """Trials of each instruction from fresh starts: `per_area` in the right area, then as many in the left.
 
     Start angles are uniform in the areas; each disc is uniform on its sector's chord (spec section 2).
     Instruction follows instruction, T = len(instructions) * 2 * per_area.
+
+    Args:
+        instructions: Records or text, such as "touch green"; one, or several.
+        per_area: Trials of each instruction from each start area.
+        readings: The world.
+        rng: Every draw comes from it.
+
+    Raises:
+        ValueError: If there are no trials to draw, too many, or an instruction is not understood.
     """
+    asked = [instructions] if isinstance(instructions, Instruction | str) else instructions
+    instructions = [Instruction.parse(each) if isinstance(each, str) else each for each in asked]
     if per_area < 1 or not instructions:
         raise ValueError(
             f"asked for {per_area} trials per area of {len(instructions)} instructions; "
@@ -196,6 +227,7 @@ def draw_trials(
     )
 
 
+@lru_cache(maxsize=64)
 def _chord_ends(readings: Readings) -> NDArray[np.float64]:
     """Both ends of each sector's chord, [2, 3, 2] in [cm]."""
     ends = np.empty((2, c.N_OBJECTS, 2))
@@ -203,6 +235,7 @@ def _chord_ends(readings: Readings) -> NDArray[np.float64]:
         for end, side in enumerate((-1.0, 1.0)):
             sine, cosine = sin_cos(centre + side * readings.sector_half_width)
             ends[end, disc] = c.CHORD_END_DISTANCE * cosine, c.CHORD_END_DISTANCE * sine
+    ends.flags.writeable = False
     return ends
 
 

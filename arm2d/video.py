@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable, Iterator
-from itertools import chain
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
@@ -15,13 +13,11 @@ from numpy.typing import NDArray
 
 from arm2d.constants import DT
 from arm2d.drawing import FLOOR, Scene
+from arm2d.films import write_mp4
 from arm2d.trials import TrialRecord
 
 FRAMES_PER_STEP: Final = 3  # positions are interpolated in between
 DPI: Final = 100
-# H.264 that every player and browser knows, its index in front so that a browser starts at
-# once; this preset takes a third of the default's time.
-PLAYABLE: Final = ("-preset", "veryfast", "-movflags", "+faststart")
 HOLD_S: Final = 1.0  # the last state stays for so long
 
 
@@ -32,17 +28,25 @@ class Panel:
         record: The trial.
         width_px: Width and
         height_px: height of a frame.
-        caption: Whether the instruction and, in the end, the outcome are written into it.
+        caption: Whether the instruction is written into it.
         note: A line under the instruction.
+        outcome: Whether it says in the end how it went, by default with the caption.
     """
 
     def __init__(
-        self, record: TrialRecord, width_px: int, height_px: int, *, caption: bool = True, note: str = ""
+        self,
+        record: TrialRecord,
+        width_px: int,
+        height_px: int,
+        *,
+        caption: bool = True,
+        note: str = "",
+        outcome: bool | None = None,
     ) -> None:
         figure = Figure(figsize=(width_px / DPI, height_px / DPI), dpi=DPI, facecolor=FLOOR)
         self._canvas = FigureCanvasAgg(figure)
         self._axes = figure.add_axes((0, 0, 1, 1))
-        self._scene = Scene(self._axes, record, caption=caption, note=note)
+        self._scene = Scene(self._axes, record, caption=caption, note=note, outcome=outcome)
         for artist in self._scene.moving:
             artist.set_animated(True)
         self._canvas.draw()
@@ -86,7 +90,7 @@ def render_video(record: TrialRecord, path: Path | str, *, note: str = "") -> Pa
 
     Raises:
         ValueError: If the path does not end in .mp4.
-        OSError: If the file cannot be written.
+        OSError: If nothing here can write films, or the file cannot be written: an old one is then kept.
     """
     path = Path(path)
     if path.suffix.lower() != ".mp4":
@@ -94,31 +98,3 @@ def render_video(record: TrialRecord, path: Path | str, *, note: str = "") -> Pa
             f"{path} does not end in .mp4, the one kind of video written here; choose such a name"
         )
     return write_mp4(frames(record, note=note), path, round(FRAMES_PER_STEP / DT))
-
-
-def write_mp4(pictures: Iterable[NDArray[np.uint8]], path: Path, per_second: int) -> Path:
-    """Write frames [H, W, 3] as an MP4; the file appears when it is complete, or not at all.
-
-    Raises:
-        OSError: If the file cannot be written.
-    """
-    import imageio_ffmpeg
-
-    pictures = iter(pictures)
-    first = next(pictures)
-    unfinished = path.with_name(f".{path.stem}.unfinished{path.suffix}")
-    try:
-        size = first.shape[1], first.shape[0]
-        writer = imageio_ffmpeg.write_frames(
-            str(unfinished), size, fps=per_second, quality=7, macro_block_size=2, output_params=list(PLAYABLE)
-        )
-        writer.send(None)
-        try:
-            for picture in chain([first], pictures):
-                writer.send(np.ascontiguousarray(picture))
-        finally:
-            writer.close()
-        os.replace(unfinished, path)
-    finally:
-        unfinished.unlink(missing_ok=True)
-    return path

@@ -19,7 +19,7 @@ from pathlib import Path
 
 from evolution.experiments.cluster.address import connected
 from evolution.experiments.cluster.running import RemoteStart
-from evolution.experiments.jobs import Watcher
+from evolution.experiments.jobs import Overseer
 from evolution.experiments.plan import Plan
 from evolution.experiments.plan_runner import run_plan
 from evolution.experiments.standing import is_held
@@ -104,7 +104,7 @@ def run_cut_off(plan: Plan) -> None:
 
     with connected(ADDRESS, plan.folder) as cluster:
         cluster.on_note = print
-        assert run_plan(plan, sys.maxsize, Watcher(on_tick=cut), RemoteStart(cluster)) == ()
+        assert run_plan(plan, sys.maxsize, Overseer(on_tick=cut), RemoteStart(cluster)) == ()
     assert cut_at is not None, "the runs were over before anything was cut off"
     print(f"all runs done {time.monotonic() - cut_at:.0f} s after that")
 

@@ -20,9 +20,11 @@ import time
 from contextlib import redirect_stdout
 from pathlib import Path
 
-from evolution.experiments.plan import Plan, evolve_arguments
+from evolution.child import reference
+from evolution.experiments.plan import Plan
 from evolution.experiments.plan_runner import run_plan_shown
 from evolution.experiments.stage_times import FILE
+from evolution.experiments.stages import evolve_run
 from evolution.experiments.warm_workers import WarmStart
 from evolution.experiments.workers import ColdStart, Job
 from evolution.runs.meta import machine
@@ -62,7 +64,8 @@ def _start_once(folder: Path, name: str, number: int, start: ColdStart | WarmSta
     """Wall and CPU time of one run, its process included [s]."""
     config, path = RunConfig(seed=number, settings=SHORT), folder / name / str(number)
     path.parent.mkdir(exist_ok=True)
-    worker = start.start(Job(name, "evolving", evolve_arguments(config, path), path, folder / "log"))
+    run = {"folder": str(path), "config": config.to_mapping()}
+    worker = start.start(Job(name, "evolving", reference(evolve_run), run, path, folder / "log"))
     while (ended := worker.look()) is None:
         start.wait([worker], 0.001)
     assert ended.exit_code == 0, worker.sentence()

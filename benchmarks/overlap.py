@@ -16,7 +16,7 @@ from rich.console import Console
 from rich.table import Table
 
 from arm2d import TrialRecord, draw_trials, record_trial
-from evolution.runs.sources import Source, find_source
+from evolution.runs.sources import Agent, find_agent
 from models.robots import get_robot
 from mujoco_port.acting.gaps import Gaps
 from mujoco_port.film.kinematic import roll_out
@@ -42,14 +42,12 @@ class Tally:
     missing: int = 0
 
 
-def tally(source: Source, gaps: Gaps) -> Tally:
+def tally(agent: Agent, gaps: Gaps) -> Tally:
     """Go through an agent's trials of all nine instructions."""
-    trials = draw_trials(
-        source.condition.instructions, PER_AREA, source.readings, np.random.default_rng(SEED)
-    )
+    trials = draw_trials(agent.condition.instructions, PER_AREA, agent.readings, np.random.default_rng(SEED))
     total = Tally()
     for t in range(len(trials)):
-        add(total, record_trial(source.genotype, trials[t], source.readings), gaps)
+        add(total, record_trial(agent.genotype, trials[t], agent.readings), gaps)
     return total
 
 
@@ -79,7 +77,7 @@ def main(agents: tuple[str, ...]) -> None:
     for name in ("agent", "trials", "overlapping", "missing", "deepest", "touched p1, 50, 99", "arm least"):
         table.add_column(name, justify="left" if name == "agent" else "right")
     for agent in agents:
-        total = tally(find_source(agent, generation=None, rank=0, condition=None), gaps)
+        total = tally(find_agent(agent, generation=None, rank=0, condition=None), gaps)
         touched = np.percentile(total.touched, [1, 50, 99]) * 1e3 if total.touched else [np.nan] * 3
         table.add_row(
             agent,

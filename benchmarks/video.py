@@ -55,7 +55,7 @@ def children_ms(n: int, since: os.times_result) -> float:
 def main() -> None:
     """Print a table."""
     choose_back_end()
-    from arm2d.video import write_mp4
+    from arm2d.films import write_mp4
     from mujoco_port.film.gaze import Bearing
     from mujoco_port.film.kinematic import FRAMES_PER_STEP
     from mujoco_port.film.quality import QUALITIES

@@ -1,7 +1,18 @@
-"""`python -m evolution` is `wordarm`."""
+"""`python -m evolution` is `wordarm`, which begins here: Ctrl-C is answered before anything is imported."""
 
 import sys
 
-from evolution.cli import main
 
-sys.exit(main())
+def main() -> int:
+    """Run a command and return its exit code."""
+    try:
+        from evolution.cli import main as command_line
+
+        return command_line()
+    except KeyboardInterrupt:
+        sys.stderr.write("wordarm: stopped by Ctrl-C\n")
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

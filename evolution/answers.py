@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import select
 import sys
 from collections.abc import Callable
-from typing import Final
+from io import TextIOWrapper
+from typing import Final, TextIO
 
 BAD_INPUT: Final = 2
 INTERRUPTED: Final = 130
@@ -15,22 +17,85 @@ SENTENCE_PREFIX: Final = "wordarm: "
 LONGEST_SENTENCE: Final = 1000
 
 
+class OutputClosedError(BrokenPipeError):
+    """Whoever read the output has seen enough."""
+
+
 def answer(run: Callable[[], int]) -> int:
     """The exit code of what a command does; what is wrong with its input is printed in one sentence."""
+    if isinstance(sys.stdout, TextIOWrapper):
+        # What the output cannot encode is no reason to fail.
+        sys.stdout.reconfigure(errors="replace")
     try:
-        return run()
-    except BrokenPipeError:
-        # Whoever read our output has seen enough; Python must not complain of it when it ends.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE
+        return _written_out(run)
     except (ValueError, OSError) as error:
-        print(f"{SENTENCE_PREFIX}{_sentence(error)}", file=sys.stderr)
+        if isinstance(error, BrokenPipeError) and _is_closed(error):
+            _say("nobody reads the output any more, so the command ended; repeat it to go on")
+            _give_up(sys.stdout)
+            return BROKEN_PIPE
+        _say(_sentence(error))
+        _give_up_unwritten()
         return BAD_INPUT
     except MemoryError:
-        print(f"{SENTENCE_PREFIX}the memory does not suffice; ask for less at once", file=sys.stderr)
+        _say("the memory does not suffice; ask for less at once")
         return BAD_INPUT
     except KeyboardInterrupt:
+        _say("stopped by Ctrl-C")
         return INTERRUPTED
+
+
+def _written_out(run: Callable[[], int]) -> int:
+    """Run, and meet whatever is wrong with the output now rather than when Python ends."""
+    try:
+        code = run()
+    except SystemExit as end:
+        if isinstance(end.__context__, BrokenPipeError):  # what rich makes of it
+            raise OutputClosedError from None
+        _flush()
+        raise
+    _flush()
+    return code
+
+
+def _flush() -> None:
+    """Write out what was printed."""
+    try:
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise OSError(f"the output cannot be written ({error.strerror}); send it elsewhere") from None
+
+
+def _is_closed(error: BrokenPipeError) -> bool:
+    """Whether it is our output that nobody reads, rather than a program that we write to and that died."""
+    if isinstance(error, OutputClosedError):
+        return True
+    watch = select.poll()
+    watch.register(sys.stdout.fileno(), 0)
+    return any(events & (select.POLLERR | select.POLLHUP) for _, events in watch.poll(0))
+
+
+def _say(sentence: str) -> None:
+    """Print a sentence, if there is anybody to read it."""
+    try:
+        print(f"{SENTENCE_PREFIX}{sentence}", file=sys.stderr, flush=True)
+    except OSError:
+        _give_up(sys.stderr)
+
+
+def _give_up_unwritten() -> None:
+    """Give an output up that takes no more, such as a file on a full disk: Python would try once more."""
+    try:
+        _flush()
+    except OSError:
+        _give_up(sys.stdout)
+
+
+def _give_up(stream: TextIO) -> None:
+    """Let what is still to be written to a stream go nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _sentence(error: ValueError | OSError) -> str:

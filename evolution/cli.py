@@ -1,125 +1,172 @@
-"""The command line: `wordarm <command>`.
+"""The command line: `wordarm COMMAND`.
 
-What a user got wrong is answered by one sentence on stderr and exit code 2.
+A command is named once, in GROUPS; its module is imported when it is asked for. What a user got wrong is
+answered by one sentence on stderr and exit code 2.
 """
 
 from __future__ import annotations
 
 import os
 import sys
+import warnings
 from collections.abc import Sequence
-from typing import Annotated, Final
+from typing import Final, NamedTuple, Protocol
 
-import tyro
-from tyro.conf import subcommand
+from evolution.answers import BAD_INPUT, SENTENCE_PREFIX, answer
 
-from arm2d import Readings
-from evolution.answers import answer
-from evolution.commands.agree import Agree
-from evolution.commands.analyse import Analyse
-from evolution.commands.behaviour import BehaviourCommand
-from evolution.commands.classes import Classes
-from evolution.commands.compare import Compare
-from evolution.commands.doctor import Doctor
-from evolution.commands.evaluate import Evaluate
-from evolution.commands.evolve import Evolve, UncheckedReadings
-from evolution.commands.experiment import ExperimentCommand
-from evolution.commands.gallery import Gallery
-from evolution.commands.lineage import LineageCommand
-from evolution.commands.measure import Measure
-from evolution.commands.plot import Plot
-from evolution.commands.port import Port
-from evolution.commands.postevaluate import PostEvaluate
-from evolution.commands.repair import Repair
-from evolution.commands.report import Report
-from evolution.commands.reproduce import Reproduce
-from evolution.commands.ship import Ship
-from evolution.commands.status import Status
-from evolution.commands.study import StudyCommand
-from evolution.commands.torture import TortureCommand
-from evolution.commands.verify import Verify
-from evolution.commands.workspace import Workspace
 
-DESCRIPTION: Final = "An arm that obeys two-word instructions: evolve its controllers, test them, show them."
+class Entry(NamedTuple):
+    """A command: where its record is, and what it is for."""
 
-Command = (
-    Evolve
-    | Agree
-    | Evaluate
-    | ExperimentCommand
-    | BehaviourCommand
-    | Classes
-    | Compare
-    | Doctor
-    | Gallery
-    | LineageCommand
-    | Measure
-    | Plot
-    | Port
-    | PostEvaluate
-    | Repair
-    | Report
-    | Reproduce
-    | Ship
-    | Status
-    | StudyCommand
-    | TortureCommand
-    | Verify
-    | Workspace
-    | Analyse
-)
+    place: str
+    line: str
+
+
+# In the order of the story.
+GROUPS: Final = {
+    "evolve": {
+        "evolve": Entry("evolve:Evolve", "one run from random genotypes, or the rest of it"),
+        "experiment": Entry("experiment:ExperimentCommand", "any grid of readings, settings and seeds"),
+        "reproduce": Entry("reproduce:Reproduce", "the whole paper, from random genotypes to its report"),
+        "status": Entry("experiment:Status", "how far runs have come, from another terminal"),
+        "study": Entry("study:StudyCommand", "which reading comes nearest to the published figures"),
+    },
+    "look": {
+        "evaluate": Entry("agent:Evaluate", "an agent on all nine instructions; a run's fitness"),
+        "behaviour": Entry("behaviour:BehaviourCommand", "how an agent, or classes of agents, do it"),
+        "lineage": Entry("lineage:LineageCommand", "an agent's ancestors, and when each skill came"),
+    },
+    "paper": {
+        "postevaluate": Entry("analyse:PostEvaluate", "the paper's tests, for every finished run"),
+        "analyse": Entry("analyse:Analyse", "its tables and figures; several experiments compared"),
+        "report": Entry("analyse:Report", "one page with everything an experiment shows"),
+    },
+    "robot": {
+        "port": Entry("port:Port", "a trial, or all nine, on the iCub, as a video"),
+        "agree": Entry("robot:Agree", "how often the robot does what the planar arm does"),
+        "workspace": Entry("robot:Workspace", "whether a robot reaches everywhere, and hits nothing"),
+    },
+    "keep": {
+        "verify": Entry("verify:Verify", "a run computed again and compared, or repaired"),
+        "doctor": Entry("machine:Doctor", "what this machine lacks; what its file system keeps"),
+    },
+}
+COMMANDS: Final = {name: entry for group in GROUPS.values() for name, entry in group.items()}
+# What became of commands that there were.
+MOVED: Final = {
+    "classes": "behaviour EXPERIMENT",
+    "compare": "analyse EXPERIMENT EXPERIMENT",
+    "gallery": "port AGENT all",
+    "plot": "evaluate RUN",
+    "repair": "verify RUN --repair",
+    "ship": "analyse EXPERIMENT --ship FOLDER",
+    "torture": "doctor --torture FOLDER",
+}
+
+USAGE: Final = """\
+usage: wordarm COMMAND [OPTIONS]
+
+An arm that obeys two-word instructions: evolve its controllers, test them,
+show them on a humanoid.
+"""
+ENDING: Final = """
+Options of a command: wordarm COMMAND --help. Version: wordarm --version"""
+
+
+class Command(Protocol):
+    """What the options of a command are read into."""
+
+    def run(self) -> int:
+        """Do it; the exit code."""
+        ...
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command and return its exit code: 0, 2 for bad input, 130 after Ctrl-C."""
+    """Run a command and return its exit code: 0, 2 for bad input, 130 after Ctrl-C, 141 for a closed pipe."""
+    return answer(lambda: _main(sys.argv[1:] if arguments is None else arguments))
+
+
+def _main(arguments: Sequence[str]) -> int:
+    warnings.formatwarning = _one_line
+    if os.path.expanduser("~") == "~":  # a user without a home, of which arm2d.cache tells
+        import logging
+
+        logging.getLogger("matplotlib").setLevel(logging.ERROR)
     # A run is one thread; idle threads of linear algebra would only cost memory.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
-    return answer(lambda: parse(sys.argv[1:] if arguments is None else arguments).run())
+    if not arguments:
+        print(overview(), file=sys.stderr)
+        return BAD_INPUT
+    if arguments[0] in ("-h", "--help"):
+        print(overview())
+        return 0
+    if arguments[0] == "--version":
+        from evolution.runs.meta import revision, versions
+
+        print(f"wordarm {versions()['wordarm']}, revision {revision()}")
+        return 0
+    return parse(arguments).run()
+
+
+def _one_line(message: Warning | str, *_: object, **__: object) -> str:
+    """How a warning is shown: to a user, its place in our sources says nothing."""
+    return f"{SENTENCE_PREFIX}{message}\n"
+
+
+def overview() -> str:
+    """What `wordarm --help` says."""
+    width = max(map(len, COMMANDS)) + 2
+    groups = [
+        "\n".join([name, *(f"  {command:{width}}{entry.line}" for command, entry in group.items())])
+        for name, group in GROUPS.items()
+    ]
+    return "\n".join([USAGE, "\n\n".join(groups), ENDING])
 
 
 def parse(arguments: Sequence[str]) -> Command:
-    """The command that the arguments ask for; the option parser exits with code 2 where it finds none.
+    """The command that the arguments ask for.
 
     Raises:
-        ValueError: If an argument holds a control character, which the parser would pass on to the terminal.
+        ValueError: If there is no such command, option or value, with the nearest there is.
+        SystemExit: With code 0, after the help of a command was printed.
     """
+    # The parser would pass control characters on to the terminal.
     for number, argument in enumerate(arguments, 1):
-        if any(each < " " or each == "\x7f" for each in argument):
+        if any(character < " " or character == "\x7f" for character in argument):
             raise ValueError(f"argument {number} is {argument!r}; leave out what cannot be printed")
-    command = _parse(arguments, UncheckedReadings())
-    if isinstance(command, Evolve | Reproduce) and command.preset != "default":
-        # Now that the preset is known, its readings become the defaults of those that were not set.
-        command = _parse(arguments, UncheckedReadings(**vars(Readings.preset(command.preset))))
-    return command
+    name, *options = arguments
+    kind, prog = _record(name), f"wordarm {name}"
+    from evolution.parsing import read_command
+
+    command = read_command(kind, options, prog)
+    # Now that a preset is known, its readings become the defaults of those that were not set.
+    default = command.preset_default() if hasattr(command, "preset_default") else None
+    return command if default is None else read_command(kind, options, prog, default)
 
 
-def _parse(arguments: Sequence[str], readings: UncheckedReadings) -> Command:
-    """Parse, with the default readings as given."""
-    commands = (
-        Annotated[Evolve, subcommand("evolve", default=Evolve(readings=readings))]
-        | Annotated[Agree, subcommand("agree")]
-        | Annotated[BehaviourCommand, subcommand("behaviour")]
-        | Annotated[Classes, subcommand("classes")]
-        | Annotated[Compare, subcommand("compare")]
-        | Annotated[Doctor, subcommand("doctor")]
-        | Annotated[Evaluate, subcommand("evaluate")]
-        | Annotated[ExperimentCommand, subcommand("experiment")]
-        | Annotated[Gallery, subcommand("gallery")]
-        | Annotated[LineageCommand, subcommand("lineage")]
-        | Annotated[Measure, subcommand("measure")]
-        | Annotated[Plot, subcommand("plot")]
-        | Annotated[Port, subcommand("port")]
-        | Annotated[PostEvaluate, subcommand("postevaluate")]
-        | Annotated[Repair, subcommand("repair")]
-        | Annotated[Report, subcommand("report")]
-        | Annotated[Reproduce, subcommand("reproduce", default=Reproduce(readings=readings))]
-        | Annotated[Ship, subcommand("ship")]
-        | Annotated[Status, subcommand("status")]
-        | Annotated[StudyCommand, subcommand("study")]
-        | Annotated[TortureCommand, subcommand("torture")]
-        | Annotated[Verify, subcommand("verify")]
-        | Annotated[Workspace, subcommand("workspace")]
-        | Annotated[Analyse, subcommand("analyse")]
-    )
-    return tyro.cli(commands, prog="wordarm", description=DESCRIPTION, args=arguments)  # pyright: ignore
+def _record(name: str) -> type:
+    """The record of a command.
+
+    Raises:
+        ValueError: If there is none of that name.
+    """
+    from importlib import import_module
+
+    entry = COMMANDS.get(name)
+    if entry is None:
+        raise ValueError(_no_command(name))
+    module, record = entry.place.split(":")
+    return getattr(import_module(f"evolution.commands.{module}"), record)
+
+
+def _no_command(name: str) -> str:
+    """What is said instead of a command that does not exist."""
+    if name.startswith("-"):
+        return f"{name} stands where a command should; see: wordarm --help"
+    from difflib import get_close_matches
+
+    close = get_close_matches(name.lower(), [*COMMANDS, *MOVED], n=1)
+    if not close:
+        return f"there is no command {name!r}; see: wordarm --help"
+    return f"there is no command {name!r}; the nearest is: wordarm {MOVED.get(close[0], close[0])}"

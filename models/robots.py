@@ -227,6 +227,7 @@ ICUB_ERD = replace(
     shapes=(),
 )
 
+# All of them, by name.
 ROBOTS: Mapping[str, Robot] = MappingProxyType({robot.name: robot for robot in (ICUB, ICUB_ERD)})
 
 

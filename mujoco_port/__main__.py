@@ -2,7 +2,8 @@
 
 import sys
 
-from evolution.cli import main
+from evolution.__main__ import main
 
 if __name__ == "__main__":
-    sys.exit(main(["port", *sys.argv[1:]]))
+    sys.argv.insert(1, "port")
+    sys.exit(main())

@@ -29,7 +29,7 @@ from arm2d.constants import DT  # noqa: E402
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS  # noqa: E402
 from evolution.agents.recording import record_instruction  # noqa: E402
 from evolution.figures.run import SUCCESS_MAP  # noqa: E402
-from evolution.runs.sources import Source, find_source  # noqa: E402
+from evolution.runs.sources import Agent, find_agent  # noqa: E402
 from evolution.search.evaluation import evaluate  # noqa: E402
 from models.robots import get_robot  # noqa: E402
 from mujoco_port.film.quality import QUALITIES, Quality  # noqa: E402
@@ -57,15 +57,15 @@ class Page:
     """Words, marks and heat map around a picture of the robot.
 
     Args:
-        source: Whose successes the heat map shows.
+        agent: Whose successes the heat map shows.
         scale: 1 for a page 800 pixels wide.
     """
 
-    def __init__(self, source: Source, scale: float) -> None:
+    def __init__(self, agent: Agent, scale: float) -> None:
         self._scale = scale
         self.view = _even(WIDTH * scale), _even(VIEW * scale)
         self.inset = _even(INSET * scale)
-        self._strip = self._draw_strip(source)
+        self._strip = self._draw_strip(agent)
 
     def picture(
         self, view: NDArray[np.uint8], heard: tuple[bool, bool], asked: Instruction, share: float, clock: str
@@ -143,15 +143,15 @@ class Page:
         self._write(pen, x - radius - 14, y - 8, clock, 15, INK, anchor="rm", weight="bold")
         self._write(pen, x - radius - 14, y + 12, "hold for 10 s", 10.5, QUIET, anchor="rm")
 
-    def _draw_strip(self, source: Source) -> Image.Image:
+    def _draw_strip(self, agent: Agent) -> Image.Image:
         """How often the agent carries out each instruction; those it never met are framed."""
         size = self.view[0], _even(STRIP * self._scale)
         strip = Image.new("RGB", tuple(SMOOTH * each for each in size), FLOOR)
         pen = ImageDraw.Draw(strip)
-        evaluation = evaluate(source.genotype, source.condition, source.readings)
+        evaluation = evaluate(agent.genotype, agent.condition, agent.readings)
         counts, trials = evaluation.successes[0].sum(axis=-1), 2 * evaluation.per_area
         left, top, width, height = 330, 26, 146, 31
-        for k, (asked, count) in enumerate(zip(source.condition.instructions, counts, strict=True)):
+        for k, (asked, count) in enumerate(zip(agent.condition.instructions, counts, strict=True)):
             row, column = divmod(k, 3)
             x, y = left + column * (width + 5), top + row * (height + 3)
             share = float(count) / trials
@@ -183,17 +183,17 @@ class Page:
             self._write(pen, CORNER + 6, y, words, 13, INK, anchor="lm", weight=weight)
 
 
-def still(source: Source) -> Image.Image:
+def still(agent: Agent) -> Image.Image:
     """The picture: a moment of the trial, in high quality."""
-    page, take = Page(source, STILL_SCALE), _take(source, 1.0)
+    page, take = Page(agent, STILL_SCALE), _take(agent, 1.0)
     with Stage(ROBOT, *page.view, QUALITIES["high"], take.record.readings) as stage:
         view = moment_of(take, stage, STILL_STEP, page.inset)
     return _page_at(page, take, STILL_STEP, view)
 
 
-def loop(source: Source, quality: Quality = LOOP) -> Iterator[Image.Image]:
+def loop(agent: Agent, quality: Quality = LOOP) -> Iterator[Image.Image]:
     """The loop: silence, one word, two words, the trial, its end."""
-    page, take = Page(source, LOOP_SCALE), _take(source, 1.0 / LOOP_STEPS)
+    page, take = Page(agent, LOOP_SCALE), _take(agent, 1.0 / LOOP_STEPS)
     asked = take.record.instruction
     with Stage(ROBOT, *page.view, quality, take.record.readings) as stage:
         for moment, view in enumerate(robot_pictures(take, stage, page.inset)):
@@ -214,10 +214,10 @@ def _page_at(page: Page, take: Take, moment: int, view: NDArray[np.uint8]) -> Im
     return page.picture(view, (True, True), asked, float(take.mind.share[state]), clock)
 
 
-def _take(source: Source, frames_per_step: float) -> Take:
+def _take(agent: Agent, frames_per_step: float) -> Take:
     """The trial that is shown."""
-    record = record_instruction(source, Instruction.parse(INSTRUCTION), AREA, SEED)
-    return kinematic_take(record, ROBOT, frames_per_step, source.genotype)
+    record = record_instruction(agent, Instruction.parse(INSTRUCTION), AREA, SEED)
+    return kinematic_take(record, ROBOT, frames_per_step, agent.genotype)
 
 
 def _font(weight: str, size: int) -> ImageFont.FreeTypeFont:
@@ -233,9 +233,9 @@ def _even(length: float) -> int:
 def main() -> None:
     """Write both files into the folder that is named."""
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "docs/images")
-    source = find_source(AGENT)
-    still(source).save(folder / "front.png", optimize=True)
-    frames = list(track(loop(source), "loop", total=None))
+    agent = find_agent(AGENT)
+    still(agent).save(folder / "front.png", optimize=True)
+    frames = list(track(loop(agent), "loop", total=None))
     first, *rest = frames
     milliseconds = round(1000 / LOOP_PER_SECOND)
     first.save(

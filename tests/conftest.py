@@ -1,5 +1,6 @@
 """What the tests of several packages share."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -22,3 +23,11 @@ def evolved() -> np.ndarray:
 def evolved_agent(evolved) -> np.ndarray:
     """The best [84] of the With-Indicate run that got furthest."""
     return evolved[15]
+
+
+@pytest.fixture
+def other_user() -> int:
+    """The number of another user, to whom only root can give files."""
+    if os.geteuid():
+        pytest.skip("only root can give files to another user")
+    return 65534

@@ -6,10 +6,10 @@ import numpy as np
 
 from arm2d.arithmetic import sigmoid
 from arm2d.compiling import compiled
-from arm2d.constants import BETA_MAX, N_INTER, N_OBJECTS
+from arm2d.constants import N_INTER, N_OBJECTS
 from arm2d.kernel import lanes as at
-from arm2d.kernel.camera_at_end import look_from_end, look_in_lane
-from arm2d.kernel.contact import place_disc, set_limit, touch_discs
+from arm2d.kernel.camera_at_end import look_from_end
+from arm2d.kernel.contact import touch_discs
 from arm2d.kernel.controller import (
     INTER_BIAS,
     N_CAMERA_CODES,
@@ -22,14 +22,8 @@ from arm2d.kernel.controller import (
 )
 from arm2d.kernel.exchange import NO_CHANGE, Outcomes, TrialArrays, record_step
 from arm2d.kernel.lanes import BLOCK, N_FLOAT_FIELDS, N_INTEGER_FIELDS, N_LANES, ROW, Floats, Integers
-from arm2d.kernel.scores import (
-    final_scores,
-    offset_from_target,
-    remember_stretch,
-    score_step,
-    set_criterion,
-    target_in_view,
-)
+from arm2d.kernel.lifetime import finish_lane, start_lane
+from arm2d.kernel.scores import remember_stretch, score_step, target_in_view
 from arm2d.kernel.world import N_BETA_KEYS, World, WorldTables
 
 
@@ -121,7 +115,7 @@ def _run_network(
             if n[at.DONE + i] == 0:
                 i += 1
                 continue
-            _finish(s, n, i, p, trials, world, outcomes)
+            finish_lane(s, n, i, p, trials.action, world, outcomes)
             if waiting < n_trials:
                 _start(lanes, i, waiting, network, trials, world, words)
                 waiting += 1
@@ -145,30 +139,10 @@ def _start(
 ) -> None:
     """Put lane i at the start of a trial."""
     s, n, d = lanes
-    n[at.TRIAL + i] = trial
-    s[at.ALPHA + i] = trials.alpha[trial]
-    s[at.BETA + i] = BETA_MAX
     for j in range(N_INTER):
         s[at.Y + j * N_LANES + i] = 0.0
         s[at.Z + j * N_LANES + i] = sigmoid(0.0 + network[INTER_BIAS + j])
-    for disc in range(N_OBJECTS):
-        n[at.SIDE + disc * N_LANES + i] = at.NONE
-        place_disc(s, disc * N_LANES + i, trials.bearing[trial, disc], trials.distance[trial, disc], world)
-    set_limit(s, i, world)
-    if world.from_end:
-        look_in_lane(s, n, i, trials.object[trial], world)
-    s[at.TARGET + i] = trials.bearing[trial, trials.object[trial]]
-    s[at.FIRST_OFFSET + i] = offset_from_target(s, i)
-    n[at.TOUCH + i] = 0
-    n[at.TARGET_SIDE + i] = at.NONE
-    n[at.COLLIDED + i] = 0
-    n[at.STEP + i] = 0
-    n[at.DONE + i] = 0
-    s[at.RUN + i] = 0.0
-    s[at.BEST + i] = 0.0
-    s[at.STRETCH + i] = 0.0
-    n[at.WAIT + i] = at.NOT_SEEN
-    set_criterion(s, n, i, trials.action[trial], world)
+    start_lane(s, n, i, trial, trials, world)
     _hear(d, i, trials.heard[trial, 0], words)
 
 
@@ -195,20 +169,6 @@ def _change_words(
         if n[at.WAIT + i] == 0:
             n[at.WAIT + i] = at.CHANGED
             _hear(d, i, trials.heard[n[at.TRIAL + i], 1], words)
-
-
-@compiled(allocates=False)
-def _finish(
-    s: Floats, n: Integers, i: int, p: int, trials: TrialArrays, world: World, outcomes: Outcomes
-) -> None:
-    """Score the ended trial of lane i."""
-    trial = n[at.TRIAL + i]
-    f1, f2, f3, success = final_scores(s, n, i, world, trials.action[trial])
-    outcomes.f1[p, trial] = f1
-    outcomes.f2[p, trial] = f2
-    outcomes.f3[p, trial] = f3
-    outcomes.success[p, trial] = success
-    outcomes.steps[p, trial] = n[at.STEP + i]
 
 
 @compiled(allocates=False)

@@ -14,11 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d import Condition, Instruction, Readings, TrialRecord, Trials, decode, draw_trials, record_trial
 from arm2d.arithmetic import sigmoid
 from arm2d.constants import MAX_STEPS, N_INTER
-from arm2d.view import in_view
+from arm2d.geometry import in_view
+from arm2d.records import brief
+from evolution.agents.firsts import first_row
 from evolution.search.randomness import Purpose, generator
 
 TRIALS_PER_AREA: Final = 20
-NEVER: Final = -1
 # What the seeded draws are for; this stands in the place of a generation.
 RECORDED: Final = 2
 
@@ -52,6 +53,8 @@ class Behaviour:
     first_sight: NDArray[np.int64]
     first_touch: NDArray[np.int64]
 
+    __repr__ = brief
+
     def __len__(self) -> int:
         return len(self.instructions)
 
@@ -71,7 +74,7 @@ class Behaviour:
 
     def arrays(self) -> dict[str, NDArray]:
         """Its arrays by name, ready for an .npz."""
-        names = [each.name for each in fields(self) if each.name != "condition"]
+        names = [field.name for field in fields(self) if field.name != "condition"]
         return {"condition": np.array(str(self.condition)), **{name: getattr(self, name) for name in names}}
 
 
@@ -124,11 +127,7 @@ def _events(record: TrialRecord) -> tuple[int, int]:
     """Rows of first sight and first touch of the target, or -1."""
     target = record.instruction.object
     seen = in_view(record.alpha, record.discs[:, target], record.readings)
-    return _first(seen), _first(record.contact[:, target] != 0)
-
-
-def _first(happened: NDArray[np.bool_]) -> int:
-    return int(happened.argmax()) if happened.any() else NEVER
+    return first_row(seen), first_row(record.contact[:, target] != 0)
 
 
 def _padded(rows: list[NDArray[np.float64]]) -> NDArray[np.float64]:

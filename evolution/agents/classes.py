@@ -13,12 +13,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.agents.behaviour import record_behaviour
-from evolution.agents.events import WINDOWS, shares_by_event
 from evolution.agents.lesions import LESIONS, lesion_scores
-from evolution.agents.postevaluation import N_INSTRUCTIONS, late_history, read_post_evaluation
+from evolution.agents.parts import late_history
+from evolution.agents.postevaluation import N_INSTRUCTIONS, POST_EVALUATION
 from evolution.agents.subtasks import AgentClass, classify
-from evolution.agents.variance import VarianceShares, bin_times
+from evolution.agents.variance import WINDOWS, VarianceShares, bin_times, shares_by_event
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array
 from evolution.runs.storage import DamagedFileError, make_folder
@@ -76,6 +77,8 @@ class Observation:
     windows: NDArray[np.float64]
     shares: NDArray[np.float64]
 
+    __repr__ = brief
+
 
 def observation_path(run: RunFolder, sampling: Sampling) -> Path:
     """Where the measurements are kept."""
@@ -92,17 +95,24 @@ def observe(run: RunFolder, sampling: Sampling = Sampling()) -> Observation:
     """
     if observation_path(run, sampling).exists():
         return read_observation(run, sampling)
-    evaluation = read_post_evaluation(run)
+    evaluation = POST_EVALUATION.read(run)
     by_class = classify(evaluation.agents, run.config.condition)
     members = np.stack([by_class[kind] for kind in CLASSES]).reshape(len(CLASSES), -1, N_BEST)
     genotypes = late_history(run).best_genotypes if members.any() else np.empty((*members.shape[1:], 84))
     chosen = _chosen(members, genotypes, sampling)
     kinds, rows, ranks = np.array(chosen, np.int64).reshape(-1, 3).T
     measured = [_measure(run, genotypes[row, rank], sampling) for _, row, rank in chosen]
+    intact, lesioned, windows, shares = (_stacked(measured, i, shape) for i, shape in enumerate(_shapes()))
     observation = Observation(
-        evaluation.generations[rows].astype(np.int64), ranks, kinds, members.sum(axis=(1, 2)),
-        *(_stacked(measured, i, shape) for i, shape in enumerate(_shapes())),
-    )  # fmt: skip
+        generations=evaluation.generations[rows].astype(np.int64),
+        ranks=ranks,
+        classes=kinds,
+        members=members.sum(axis=(1, 2)),
+        intact=intact,
+        lesioned=lesioned,
+        windows=windows,
+        shares=shares,
+    )
     make_folder(run.path / FOLDER)
     run.write_arrays(observation_path(run, sampling), vars(observation))
     return observation
@@ -115,7 +125,7 @@ def read_observation(run: RunFolder, sampling: Sampling = Sampling()) -> Observa
         ValueError: If nothing was.
         DamagedFileError: If the file is damaged.
     """
-    path, next_move = observation_path(run, sampling), f"wordarm classes {run.path}"
+    path, next_move = observation_path(run, sampling), f"wordarm behaviour {run.path} --classes"
     if not path.exists():
         raise ValueError(f"{path} is missing; go on with: {next_move}")
     try:
@@ -128,7 +138,7 @@ def read_observation(run: RunFolder, sampling: Sampling = Sampling()) -> Observa
             check_array(path, arrays, name, (n, *shape), np.dtype(np.float64))
     except DamagedFileError as error:
         raise DamagedFileError(path, error.found, f"remove it and repeat: {next_move}") from None
-    return Observation(*(arrays[each.name] for each in fields(Observation)))
+    return Observation(*(arrays[field.name] for field in fields(Observation)))
 
 
 def choose(members: NDArray[np.bool_], genotypes: NDArray[np.float64], most: int) -> list[tuple[int, int]]:

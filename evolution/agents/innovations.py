@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from evolution.agents.firsts import NEVER
 from evolution.agents.lineage import Lineage
-from evolution.agents.lineage_scores import NEVER, LineageScores
+from evolution.agents.lineage_scores import LineageScores
 
 
 @dataclass(frozen=True)
@@ -31,9 +32,9 @@ class Innovation:
 def innovations(scores: LineageScores) -> list[Innovation]:
     """All skills of a line in the order in which they first came; those that never did come last."""
     instructions = scores.condition.instructions
-    actions = [each.action.name for each in instructions[::3]]
+    actions = [word.action.name for word in instructions[::3]]
     kinds = (
-        (scores.success, [str(each) for each in instructions]),
+        (scores.success, [str(word) for word in instructions]),
         (scores.reached_bent, [f"on target, S2 bent, hearing {name}" for name in actions]),
         (scores.held_bent, [f"on target for 1 s, S2 bent, hearing {name}" for name in actions]),
     )
@@ -44,19 +45,19 @@ def innovations(scores: LineageScores) -> list[Innovation]:
             names, skills.first, skills.for_good, skills.shares[-1], strict=True
         )
     ]
-    return sorted(found, key=lambda each: (each.first == NEVER, each.first))
+    return sorted(found, key=lambda innovation: (innovation.first == NEVER, innovation.first))
 
 
 def lineage_arrays(lineage: Lineage, scores: LineageScores, origin: str) -> dict[str, NDArray]:
     """A line and its scores as arrays by name, ready for an .npz."""
     arrays = {
         "origin": np.array(origin),
-        "instructions": np.array([str(each) for each in scores.condition.instructions]),
+        "instructions": np.array([str(word) for word in scores.condition.instructions]),
         "per_area": np.array(scores.per_area),
         "trial_seed": np.array(scores.trial_seed),
         **{name: getattr(lineage, name) for name in ("generations", "indices", "fitness", "changed")},
         "distinct_genotypes": lineage.distinct,
     }
     for kind in ("success", "reached_bent", "held_bent"):
-        arrays.update({f"{kind}_{name}": each for name, each in vars(getattr(scores, kind)).items()})
+        arrays.update({f"{kind}_{name}": array for name, array in vars(getattr(scores, kind)).items()})
     return arrays

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import ActionWord, Condition, LabelChanges, ObjectWord, Readings, Trials, run_trials
 from arm2d.kernel.world import WORD_CODES
+from arm2d.records import brief
 from evolution.agents.behaviour import TRIALS_PER_AREA, draw_behaviour_trials
 
 WORDS: Final = ("action", "object")
@@ -65,9 +66,11 @@ class LesionScores:
     intact: NDArray[np.float64]
     lesioned: NDArray[np.float64]
 
+    __repr__ = brief
+
     def arrays(self) -> dict[str, NDArray]:
         """Its arrays by name, ready for an .npz."""
-        names = [f"{each.word} word {each.manner} {each.time}" for each in LESIONS]
+        names = [f"{lesion.word} word {lesion.manner} {lesion.time}" for lesion in LESIONS]
         return {"intact": self.intact, "lesioned": self.lesioned, "lesions": np.array(names)}
 
 
@@ -94,7 +97,7 @@ def lesion_scores(
     trials = draw_behaviour_trials(condition, readings, per_area, trial_seed)
     intact = run_trials(genotypes, trials, readings).success
     lesioned = [_success(genotypes, trials, lesion, condition, readings) for lesion in LESIONS]
-    by_instruction = [each.reshape(len(each), 9, -1).mean(axis=-1) for each in (intact, *lesioned)]
+    by_instruction = [success.reshape(len(success), 9, -1).mean(axis=-1) for success in (intact, *lesioned)]
     return LesionScores(condition, per_area, by_instruction[0], np.stack(by_instruction[1:], axis=1))
 
 
@@ -137,7 +140,7 @@ def lesioned_trials(
         others = [np.full(len(trials), (target + shift) % len(ObjectWord)) for shift in (1, 2)]
         silent, row = others[0], int(others[0][0])
     if lesion.manner == "exchanged":
-        return [(_replace(trials, lesion, each), codes) for each in others]
+        return [(_replace(trials, lesion, words), codes) for words in others]
     codes[row] = 0
     return [(_replace(trials, lesion, silent), codes)]
 
@@ -158,4 +161,4 @@ def _actions(condition: Condition) -> tuple[ActionWord, ...]:
 def _rotated(actions: NDArray[np.int64], condition: Condition, shift: int) -> NDArray[np.int64]:
     """For each action word another of the same condition, [T]."""
     known = _actions(condition)
-    return np.array([known[(known.index(ActionWord(each)) + shift) % len(known)] for each in actions])
+    return np.array([known[(known.index(ActionWord(action)) + shift) % len(known)] for action in actions])

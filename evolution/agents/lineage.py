@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
+from arm2d.records import brief
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History
 from evolution.runs.recorded import recorded_history
@@ -40,9 +41,11 @@ class Lineage:
     fitness: NDArray[np.float64]
     changed: NDArray[np.bool_]
 
+    __repr__ = brief
+
     def __post_init__(self) -> None:
-        for each in fields(self):
-            getattr(self, each.name).flags.writeable = False
+        for field in fields(self):
+            getattr(self, field.name).flags.writeable = False
 
     def __len__(self) -> int:
         return len(self.generations)
@@ -109,6 +112,6 @@ def _breed_line(folder: RunFolder, history: History, indices: NDArray[np.int64])
         try:
             population = replay(population, history[row : row + 1], folder.config)
         except ContradictionError as error:
-            span = next(each for each in folder.spans if row in each)
+            span = next(part for part in folder.spans if row in part)
             raise folder.damaged(span, str(error)) from None
     return genotypes

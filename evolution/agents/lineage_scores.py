@@ -14,16 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, TrialRecord, Trials, draw_trials, record_trial, run_trials
+from arm2d.records import brief
+from evolution.agents.firsts import first_rows
 from evolution.agents.lineage import Lineage
 from evolution.search.randomness import Purpose, generator
 
 # A skill is had above 75 %, the paper's limit for its classes of agents. It has come when 25 generations
-# of the line in a row have it, and come for good when nine tenths of the rest have it too: one lucky or
-# unlucky ancestor neither makes nor undoes it. Chosen.
+# of the line in a row have it, and come for good when the agent at the end and nine tenths of the rest have
+# it too: one lucky or unlucky ancestor neither makes nor undoes it. Chosen.
 MASTERED: Final = 0.75
 IN_A_ROW: Final = 25
 REST_OF_LINE: Final = 0.9
-NEVER: Final = -1
 
 # "S1 on the target with S2 bent": for one second at a stretch, so that sweeping across it (three steps)
 # does not count; S2 is bent while beta exceeds half its range. Chosen.
@@ -51,6 +52,8 @@ class Skills:
     first: NDArray[np.int64]
     for_good: NDArray[np.int64]
 
+    __repr__ = brief
+
     @classmethod
     def along(cls, shares: NDArray[np.float64]) -> Skills:
         """The skills with these shares of trials, [G, C]."""
@@ -58,7 +61,7 @@ class Skills:
         in_a_row = _all_ahead(above, IN_A_ROW)
         rest = np.arange(len(shares), 0, -1)[:, np.newaxis]
         lasting = np.cumsum(above[::-1], axis=0)[::-1] >= REST_OF_LINE * rest
-        return cls(shares, _first_row(in_a_row), _first_row(in_a_row & lasting))
+        return cls(shares, first_rows(in_a_row), first_rows(in_a_row & lasting & above[-1]))
 
 
 @dataclass(frozen=True)
@@ -109,7 +112,7 @@ def score_lineage(
     for done, genotype in enumerate(distinct, start=1):
         scores = run_trials(genotype, trials, readings)
         success.append(scores.success.reshape(len(condition.instructions), -1).mean(axis=1))
-        stays.append([longest_bent_stay(record_trial(genotype, each, readings)) for each in watched])
+        stays.append([longest_bent_stay(record_trial(genotype, trial, readings)) for trial in watched])
         on_ancestor(done, len(distinct))
     by_action = np.reshape(stays, (len(distinct), 3, -1))  # [A, 3, trials]
     return LineageScores(
@@ -146,11 +149,6 @@ def _all_ahead(above: NDArray[np.bool_], n: int) -> NDArray[np.bool_]:
     misses = np.concatenate([np.zeros((1, above.shape[1]), int), np.cumsum(~above, axis=0)])
     rows = np.arange(len(above))
     return misses[np.minimum(rows + n, len(above))] == misses[rows]
-
-
-def _first_row(good: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """The first True of each column, or -1."""
-    return np.where(good.any(axis=0), good.argmax(axis=0), NEVER)
 
 
 def _draw(condition: Condition, readings: Readings, per_area: int, seed: int) -> tuple[Trials, list[Trials]]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import run_trials
-from evolution.agents.postevaluation import FOLDER
+from evolution.agents.postevaluation import POST_EVALUATION
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array, check_range
 from evolution.runs.recorded import recorded_histories
@@ -41,12 +41,11 @@ def read_solved_trials(folder: RunFolder) -> NDArray[np.int16]:
     Raises:
         DamagedFileError: If the file is damaged.
     """
-    path, settings = file_path(folder), folder.config.settings
-    most = len(folder.config.condition.experienced) * 2 * settings.trials_per_area
+    path = file_path(folder)
     with folder.repairable(path):
         arrays = folder.read_arrays(path)
-        check_array(path, arrays, "solved", (settings.generations,), np.dtype(np.int16))
-        check_range(path, arrays, "solved", 0, most)
+        check_array(path, arrays, "solved", (folder.config.settings.generations,), np.dtype(np.int16))
+        check_range(path, arrays, "solved", 0, n_trials(folder.config))
     return arrays["solved"]
 
 
@@ -65,9 +64,19 @@ def write_solved_trials(folder: RunFolder) -> NDArray[np.int16]:
     return solved
 
 
+def all_solved(folder: RunFolder) -> NDArray[np.bool_]:
+    """In which generations one genotype carried out all its trials, [G]; raises as `solved_trials`."""
+    return solved_trials(folder) == n_trials(folder.config)
+
+
+def n_trials(config: RunConfig) -> int:
+    """Trials in which every genotype of a generation is scored, 28 in the paper."""
+    return len(config.condition.experienced) * 2 * config.settings.trials_per_area
+
+
 def file_path(folder: RunFolder) -> Path:
     """Where it is kept."""
-    return folder.path / FOLDER / FILE
+    return folder.path / POST_EVALUATION.folder / FILE
 
 
 def _most_carried_out(genotypes: NDArray[np.float64], config: RunConfig, generation: int) -> int:

@@ -48,7 +48,7 @@ def categories(successes: NDArray[np.integer], condition: Condition) -> NDArray[
     """
     order = condition.instructions
     columns = [
-        successes[:, [order.index(each) for each in instructions]].min(axis=1)
+        successes[:, [order.index(word) for word in instructions]].min(axis=1)
         for instructions in subtask_instructions(condition).values()
     ]
     lowest = np.stack(columns, axis=1).astype(np.int64)
@@ -62,7 +62,7 @@ def count_table(categories_: NDArray[np.int64]) -> NDArray[np.int64]:
 
 def masters(successes: NDArray[np.integer], condition: Condition) -> NDArray[np.bool_]:
     """Which agents [A] exceed 75 % on every experienced instruction."""
-    known = [condition.instructions.index(each) for each in condition.experienced]
+    known = [condition.instructions.index(word) for word in condition.experienced]
     return np.all(4 * successes[:, known].astype(np.int64) > 3 * TRIALS, axis=1)
 
 
@@ -71,7 +71,7 @@ def classify(successes: NDArray[np.integer], condition: Condition) -> dict[Agent
 
     Above 75 % means more than 60 of 80 trials, below 10 % fewer than 8.
     """
-    never_met = [condition.instructions.index(each) for each in NON_EXPERIENCED]
+    never_met = [condition.instructions.index(word) for word in NON_EXPERIENCED]
     counts = successes[:, never_met].astype(np.int64)
     high, low = 4 * counts > 3 * TRIALS, 10 * counts < TRIALS
     known = masters(successes, condition)

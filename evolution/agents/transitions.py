@@ -3,12 +3,17 @@
 Action transition (a1 -> a2, object o): scores follow a2 on o. Object transition (o1 -> o2, action a):
 scores follow a on o1. Transitions whose scored instruction was never met are left out. An agent passes
 a test if every transition of it succeeds in more than 60 of 80 trials.
+
+Those of a run's late agents that belong to a class are tested, and the results kept beside the run. Axes:
+A agents, X transitions of a test.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import permutations
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -25,11 +30,19 @@ from arm2d import (
     draw_trials,
     run_trials,
 )
-from evolution.agents.postevaluation import TRIALS
+from arm2d.records import brief
+from evolution.agents.parts import LateTest, best_genotypes, joined
+from evolution.agents.postevaluation import POST_EVALUATION, TRIALS
+from evolution.agents.subtasks import AgentClass, classify
+from evolution.runs.folder import RunFolder
+from evolution.runs.history import check_array, check_range
 from evolution.search.evaluation import TRIALS_PER_AREA
+from evolution.search.randomness import Purpose, generator
+from evolution.search.settings import N_BEST
 
 # The change comes at one of so many steps, from the first after which the target is in view.
 CHANGE_STEPS: Final = 10
+CLASSES: Final = tuple(AgentClass)
 
 
 @dataclass(frozen=True)
@@ -50,40 +63,61 @@ class Transition:
         return f"{self.before} → {self.after}"
 
 
+@dataclass(frozen=True)
+class TransitionTest:
+    """Successful trials, of 80, in every transition.
+
+    Attributes:
+        generations: [A] and
+        ranks: [A], which agents.
+        classes: [A], index into `CLASSES`.
+        action: [A, X], in the order of `action_transitions`.
+        object: [A, X], in the order of `object_transitions`.
+    """
+
+    generations: NDArray[np.int32]
+    ranks: NDArray[np.int8]
+    classes: NDArray[np.int8]
+    action: NDArray[np.int16]
+    object: NDArray[np.int16]
+
+    __repr__ = brief
+
+
 def action_transitions(condition: Condition) -> tuple[Transition, ...]:
     """All changes of the action word whose scored instruction was met, object by object."""
-    actions = sorted({each.action for each in condition.instructions})
+    actions = sorted({word.action for word in condition.instructions})
     changes = [
         Transition(Instruction(first, object_), Instruction(later, object_), Instruction(later, object_))
         for object_ in ObjectWord
         for first, later in permutations(actions, 2)
     ]
-    return tuple(each for each in changes if each.scored not in NON_EXPERIENCED)
+    return tuple(change for change in changes if change.scored not in NON_EXPERIENCED)
 
 
 def object_transitions(condition: Condition) -> tuple[Transition, ...]:
     """All changes of the object word whose scored instruction was met, action by action."""
-    actions = sorted({each.action for each in condition.instructions})
+    actions = sorted({word.action for word in condition.instructions})
     changes = [
         Transition(Instruction(action, first), Instruction(action, later), Instruction(action, first))
         for action in actions
         for first, later in permutations(ObjectWord, 2)
     ]
-    return tuple(each for each in changes if each.scored not in NON_EXPERIENCED)
+    return tuple(change for change in changes if change.scored not in NON_EXPERIENCED)
 
 
 def draw_transition_trials(
     transitions: tuple[Transition, ...], readings: Readings, rng: np.random.Generator
 ) -> Trials:
     """80 trials of each transition, 40 from each start area, transition after transition."""
-    drawn = draw_trials([each.scored for each in transitions], TRIALS_PER_AREA, readings, rng)
+    drawn = draw_trials([transition.scored for transition in transitions], TRIALS_PER_AREA, readings, rng)
 
     def words(instructions: list[Instruction]) -> tuple[NDArray, NDArray]:
-        actions, objects = [each.action for each in instructions], [each.object for each in instructions]
+        actions, objects = [word.action for word in instructions], [word.object for word in instructions]
         return np.repeat(actions, TRIALS), np.repeat(objects, TRIALS)
 
-    first = words([each.before for each in transitions])
-    later = words([each.after for each in transitions])
+    first = words([transition.before for transition in transitions])
+    later = words([transition.after for transition in transitions])
     delays = rng.integers(0, CHANGE_STEPS, len(drawn))
     return Trials(
         drawn.actions, drawn.objects, drawn.alpha, drawn.discs, LabelChanges(*first, *later, delays)
@@ -107,3 +141,63 @@ def transition_successes(
 def passes(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
     """Which agents [A] pass a test: more than 75 % in every transition of it."""
     return np.all(4 * successes > 3 * TRIALS, axis=1)
+
+
+def _test(run: RunFolder, span: range) -> TransitionTest:
+    """The classed agents of some generations; those of a generation meet the same trials."""
+    condition, readings = run.config.condition, run.config.readings
+    actions, objects = action_transitions(condition), object_transitions(condition)
+    evaluated = POST_EVALUATION.read_part(run, span).successes
+    tests = []
+    for (generation, genotypes), successes in zip(best_genotypes(run, span), evaluated, strict=True):
+        classes = np.full(len(genotypes), -1, np.int8)
+        for index, members in enumerate(classify(successes, condition).values()):
+            classes[members] = index
+        ranks = np.flatnonzero(classes >= 0)
+        rng = generator(run.config.seed, Purpose.TRANSITIONS, generation)
+        test = TransitionTest(
+            generations=np.full(len(ranks), generation, np.int32),
+            ranks=ranks.astype(np.int8),
+            classes=classes[ranks],
+            action=transition_successes(genotypes[ranks], actions, readings, rng).astype(np.int16),
+            object=transition_successes(genotypes[ranks], objects, readings, rng).astype(np.int16),
+        )
+        tests.append(test)
+    return joined(TransitionTest, tests)
+
+
+def _check(path: Path, arrays: Mapping[str, NDArray], run: RunFolder, span: range) -> None:
+    """Refuse arrays that no transition test gives."""
+    condition = run.config.condition
+    n = np.size(arrays.get("generations", ()))
+    shapes = {
+        "generations": ((n,), np.int32),
+        "ranks": ((n,), np.int8),
+        "classes": ((n,), np.int8),
+        "action": ((n, len(action_transitions(condition))), np.int16),
+        "object": ((n, len(object_transitions(condition))), np.int16),
+    }
+    for name, (shape, dtype) in shapes.items():
+        check_array(path, arrays, name, shape, np.dtype(dtype))
+    check_range(path, arrays, "generations", span.start, span.stop - 1)
+    check_range(path, arrays, "ranks", 0, N_BEST - 1)
+    check_range(path, arrays, "classes", 0, len(CLASSES) - 1)
+    for name in ("action", "object"):
+        check_range(path, arrays, name, 0, TRIALS)
+
+
+TRANSITION_TEST: Final = LateTest("transitions", TransitionTest, _test, _check)
+
+
+def run_transition_test(run: RunFolder, report: Callable[[int, int], None] | None = None) -> TransitionTest:
+    """Test a post-evaluated run, or go on where it was left; what is there already is read.
+
+    Args:
+        run: The run.
+        report: Told after every part how many of how many are done.
+
+    Raises:
+        ValueError: If the run is not post-evaluated.
+        DamagedFileError: If a file is damaged.
+    """
+    return TRANSITION_TEST.complete(run, report)

@@ -12,7 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import DT
-from evolution.agents.behaviour import NEVER, Behaviour
+from arm2d.records import brief
+from evolution.agents.behaviour import Behaviour
+from evolution.agents.firsts import NEVER
 
 # Bins from so many steps before an event to so many after it.
 BEFORE, AFTER = 30, 60
@@ -20,6 +22,19 @@ BEFORE, AFTER = 30, 60
 LEAST_TRIALS: Final = 5
 # Below this total variance (outputs lie in [0, 1]) shares would be those of rounding errors.
 LEAST_VARIANCE: Final = 1e-9
+
+# The events of a trial at which neurons are looked at.
+START: Final = "trial start"
+SIGHT: Final = "first sight of the target"
+TOUCH: Final = "first touch of the target"
+
+# Stretches that are summed up in one number: an event and two times from it [s]. Chosen: the last second
+# of the search; the time from sight to touch, in which S2 is stretched; the first second of contact.
+WINDOWS: Final = {
+    "the second before first sight": (SIGHT, -1.0, 0.0),
+    "0.5 to 3 s after first sight": (SIGHT, 0.5, 3.0),
+    "the second after first touch": (TOUCH, 0.1, 1.0),
+}
 
 
 @dataclass(frozen=True)
@@ -45,16 +60,29 @@ class VarianceShares:
     rest: NDArray[np.float64]
     actions: NDArray[np.int64]
 
+    __repr__ = brief
+
     def mean(self, start: float, stop: float) -> tuple[float, float, float]:
         """Mean shares of object, action and crossed between two times [s], bounds included; else NaN."""
         inside = (self.time >= start - 1e-9) & (self.time <= stop + 1e-9) & np.isfinite(self.object)
         shares = (self.object, self.action, self.crossed)
-        o, a, c = (float(each[inside].mean()) if inside.any() else float("nan") for each in shares)
+        o, a, c = (float(share[inside].mean()) if inside.any() else float("nan") for share in shares)
         return o, a, c
 
     def arrays(self) -> dict[str, NDArray]:
         """Its arrays by name, ready for an .npz."""
-        return {each.name: getattr(self, each.name) for each in fields(self)}
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+
+def events_of(behaviour: Behaviour) -> dict[str, NDArray[np.int64]]:
+    """Rows of the trials [T] at which each event happens, or -1."""
+    start = np.zeros(len(behaviour), np.int64)
+    return {START: start, SIGHT: behaviour.first_sight, TOUCH: behaviour.first_touch}
+
+
+def shares_by_event(behaviour: Behaviour) -> dict[str, VarianceShares]:
+    """Which word the activity follows, aligned at each event."""
+    return {event: variance_shares(behaviour, rows) for event, rows in events_of(behaviour).items()}
 
 
 def bin_times() -> NDArray[np.float64]:
@@ -123,7 +151,7 @@ def _split(cells: NDArray[np.float64], within: NDArray[np.float64]) -> NDArray[n
     of_action, of_object = cells.mean(axis=1, keepdims=True), cells.mean(axis=0, keepdims=True)
     grand = cells.mean(axis=(0, 1), keepdims=True)
     parts = (of_object - grand, of_action - grand, cells - of_action - of_object + grand)
-    explained = [np.square(each).mean(axis=(0, 1)).sum(axis=-1) for each in parts]
+    explained = [np.square(part).mean(axis=(0, 1)).sum(axis=-1) for part in parts]
     return np.stack([*explained, within.mean(axis=(0, 1)).sum(axis=-1)])
 
 

@@ -1,31 +1,168 @@
-"""`wordarm analyse`: the paper's tables and figures from an experiment."""
+"""`wordarm postevaluate`, `analyse` and `report`: the paper's tests, its tables and figures, and a page."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
-from tyro.conf import Positional
+from tyro.conf import Positional, arg
+
+if TYPE_CHECKING:
+    from evolution.results.records import Results
+
+
+@dataclass(frozen=True)
+class PostEvaluate:
+    """Test the five best of each late generation on all nine instructions, and on changes in mid-trial.
+
+    Repeat the command to go on where it was stopped.
+    """
+
+    path: Annotated[Positional[Path], arg(metavar="FOLDER")]
+    """Run folder, or experiment folder with its runs below it."""
+
+    def run(self) -> int:
+        """Post-evaluate every finished run."""
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+        from evolution.agents.parts import late_spans
+        from evolution.agents.postevaluation import post_evaluate
+        from evolution.agents.solving import solved_trials
+        from evolution.agents.transitions import run_transition_test
+        from evolution.experiments.experiment import open_experiment
+        from evolution.experiments.standing import standing_of
+        from evolution.runs.lock import locked
+
+        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+        experiment, damaged = open_experiment(self.path), []
+        with Progress(*columns) as bars:
+            for run in experiment.all_runs:
+                standing = standing_of(run.path, run.config)
+                name = standing.name
+                if standing.damage or not standing.finished:
+                    bars.console.print(f"{name}: left out, {standing.damage or 'not finished'}")
+                    continue
+                parts = len(late_spans(run))
+                first = bars.add_task(f"{name}, instructions", total=parts)
+                second = bars.add_task(f"{name}, transitions", total=parts)
+                try:
+                    with locked(run.path):
+                        post_evaluate(run, lambda done, _, bar=first: bars.update(bar, completed=done))
+                        run_transition_test(run, lambda done, _, bar=second: bars.update(bar, completed=done))
+                        solved_trials(run)
+                except ValueError as error:
+                    damaged.append(str(error))
+        if damaged or experiment.unreadable:
+            raise ValueError("; ".join([*experiment.unreadable, *damaged]))
+        return 0
 
 
 @dataclass(frozen=True)
 class Analyse:
-    """Write the paper's tables and figures from post-evaluated runs, published numbers beside ours."""
+    """Write the paper's tables and figures from post-evaluated runs, published numbers beside ours.
 
-    experiment: Positional[Path]
-    """Folder of an experiment: <condition>/seed-<seed> below it."""
+    Several experiments, such as two readings, are put side by side instead: plateaus, sub-tasks,
+    generalisers, transitions. They are named after their folders.
+    """
+
+    experiments: Annotated[
+        Positional[tuple[Path, ...]], arg(metavar="EXPERIMENT...", help_behavior_hint="(required)")
+    ]
+    """Folders of experiments, <condition>/seed-<seed> below them."""
 
     output: Path | None = None
-    """Folder for the files. By default `results` in the experiment's folder."""
+    """Folder for the files. By default `results` in the experiment's folder, and `comparison` for several."""
+
+    ship: Path | None = None
+    """Of one experiment, also write best generaliser, best specialist and best With-Ignore agent to files of
+    their own in this folder; those in evolution/champions are known by their names."""
 
     def run(self) -> int:
         """Analyse, write and print."""
         from evolution.experiments.experiment import open_experiment
-        from evolution.report.files import summary, write_results
+        from evolution.results.analysis import analyse
+
+        if not self.experiments:
+            raise ValueError("no experiment is named; give its folder, such as runs/default")
+        if len(self.experiments) > 1 and self.ship is not None:
+            raise ValueError("--ship takes the agents of one experiment; name one")
+        found = {name: open_experiment(path) for name, path in _named(self.experiments).items()}
+        results = {name: analyse(experiment) for name, experiment in found.items()}
+        if len(results) > 1:
+            _compare(results, self.output or Path("comparison"))
+        else:
+            (only,) = results.values()
+            _write(only, self.output or only.experiment.path / "results", self.ship)
+        return 0
+
+
+def _write(results: Results, output: Path, shipped: Path | None) -> None:
+    """Write tables, figures and, if they are asked for, notable agents."""
+    from evolution.report.files import summary, write_results
+    from evolution.results.notable import ship
+
+    paths = write_results(results, output)
+    if shipped is not None:
+        paths = [*paths, *ship(results, shipped)]
+    for path in paths:
+        print(path)
+    print(summary(results))
+
+
+def _compare(results: Mapping[str, Results], output: Path) -> None:
+    """Write and print the key numbers of several experiments."""
+    from rich.console import Console
+
+    from evolution.figures.compare import compare_figure
+    from evolution.figures.page import save_figure
+    from evolution.report.comparison import comparison_table, key_number_table
+    from evolution.results.key_numbers import departures
+    from evolution.runs.storage import make_folder, write_atomically
+
+    console = Console(soft_wrap=True, highlight=False)
+    make_folder(output)
+    write_atomically(output / "comparison.csv", key_number_table(results).to_csv().encode())
+    print(output / "comparison.csv")
+    for path in save_figure(compare_figure(results), output / "comparison"):
+        print(path)
+    console.print(comparison_table(results))
+    for name, result in results.items():
+        console.print(f"{name}: {departures(result.experiment.readings)}")
+        for sentence in result.missing:
+            console.print(f"{name}: {sentence}")
+
+
+def _named(paths: tuple[Path, ...]) -> dict[str, Path]:
+    """Each experiment by the shortest end of its path that tells it from the others."""
+    whole = [path.resolve() for path in paths]
+    if len(set(whole)) < len(whole):
+        twice = next(path for path, full in zip(paths, whole, strict=True) if whole.count(full) > 1)
+        raise ValueError(f"{twice} is given twice; give different experiments")
+    for length in range(1, max(len(path.parts) for path in whole) + 1):
+        names = ["/".join(path.parts[-length:]) for path in whole]
+        if len(set(names)) == len(names):
+            break
+    return dict(zip(names, paths, strict=True))
+
+
+@dataclass(frozen=True)
+class Report:
+    """Write one self-contained HTML page: result, best agents alive, published numbers and ours, figures."""
+
+    experiment: Annotated[Positional[Path], arg(metavar="EXPERIMENT")]
+    """Folder of an experiment, or of one run; what is missing is named on the page."""
+
+    output: Path | None = None
+    """The page. By default `report.html` in the experiment's folder."""
+
+    def run(self) -> int:
+        """Analyse, write and print the path."""
+        from evolution.experiments.experiment import open_experiment
+        from evolution.report.page import write_report
         from evolution.results.analysis import analyse
 
         results = analyse(open_experiment(self.experiment))
-        for path in write_results(results, self.output or self.experiment / "results"):
-            print(path)
-        print(summary(results))
+        print(write_report(results, self.output or self.experiment / "report.html"))
         return 0

@@ -1,12 +1,9 @@
-"""`wordarm classes`: how compositional, partial and non-compositional agents do it."""
+"""What `wordarm behaviour` does with an experiment: how compositional, partial and other agents do it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
-
-from tyro.conf import Positional
 
 PIPE_WIDTH: Final = 120
 
@@ -14,65 +11,47 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
     from rich.table import Table
 
+    from evolution.agents.classes import Sampling
     from evolution.figures.classes import Behaviours
 
 
-@dataclass(frozen=True)
-class Classes:
-    """Observe a sample of each class of agents: which word they follow, and which they need.
+def observe_classes(experiment: Path, sampling: Sampling, output: Path | None) -> None:
+    """Observe a sample of every class run by run, then write and print.
 
-    Every run is the unit: its agents are averaged first. Repeat the command to go on where it was stopped.
+    Args:
+        experiment: Its folder, or that of one run.
+        sampling: Which agents and trials.
+        output: Folder for tables and figures; None to keep the observations beside each run only.
+
+    Raises:
+        ValueError: If no run can be observed; what is wrong with each is printed.
     """
+    from rich.console import Console
+    from rich.progress import track
 
-    experiment: Positional[Path]
-    """Folder of an experiment that was post-evaluated, or of one run."""
+    from evolution.agents.classes import observe
+    from evolution.experiments.experiment import open_experiment
+    from evolution.report.classes import behaviours_of, write_classes
+    from evolution.results.tested_runs import name_of, unfinished
+    from evolution.runs.lock import locked
 
-    agents: int = 10
-    """Agents of each class and run, at most: distinct genotypes, spread over the generations."""
-
-    trials_per_area: int = 10
-    """Trials of each instruction from each of the two start areas."""
-
-    trial_seed: int = 0
-    """Start angles and object positions follow from it."""
-
-    figures: bool = True
-    """Whether tables and figures are written, or the observations only kept beside each run."""
-
-    output: Path | None = None
-    """Folder for tables and figures. By default `results` in the experiment's folder."""
-
-    def run(self) -> int:
-        """Observe run by run, then write and print."""
-        from rich.console import Console
-        from rich.progress import track
-
-        from evolution.agents.classes import Sampling, observe
-        from evolution.experiments.experiment import open_experiment
-        from evolution.report.classes import behaviours_of, write_classes
-        from evolution.results.tested_runs import name_of, unfinished
-        from evolution.runs.lock import locked
-
-        sampling, console = Sampling(self.agents, self.trials_per_area, self.trial_seed), Console()
-        observed = []
-        runs = open_experiment(self.experiment).all_runs
-        for run in track(runs, "runs observed", console=console, transient=True):
-            try:
-                if reason := unfinished(run):
-                    raise ValueError(reason)
-                with locked(run.path):
-                    observed.append((run, observe(run, sampling)))
-            except ValueError as error:
-                console.print(f"{name_of(run)}: left out, {error}", highlight=False, soft_wrap=True)
-        if not observed:
-            raise ValueError(f"no run in {self.experiment} can be observed, for the reasons above")
-        if self.figures:
-            behaviours = behaviours_of(observed)
-            # A pipe has no width: nothing is to be cut there.
-            console.print(_table(behaviours), width=None if console.is_terminal else PIPE_WIDTH)
-            for path in write_classes(behaviours, sampling, self.output or self.experiment / "results"):
-                print(path)
-        return 0
+    console, observed = Console(), []
+    for run in track(open_experiment(experiment).all_runs, "runs observed", console=console, transient=True):
+        try:
+            if reason := unfinished(run):
+                raise ValueError(reason)
+            with locked(run.path):
+                observed.append((run, observe(run, sampling)))
+        except ValueError as error:
+            console.print(f"{name_of(run)}: left out, {error}", highlight=False, soft_wrap=True)
+    if not observed:
+        raise ValueError(f"no run in {experiment} can be observed, for the reasons above")
+    if output is not None:
+        behaviours = behaviours_of(observed)
+        # A pipe has no width: nothing is to be cut there.
+        console.print(_table(behaviours), width=None if console.is_terminal else PIPE_WIDTH)
+        for path in write_classes(behaviours, sampling, output):
+            print(path)
 
 
 def _table(behaviours: Behaviours) -> Table:

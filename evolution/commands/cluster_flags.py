@@ -4,66 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from tyro.conf import arg
 
+from evolution.experiments.cluster.options import SlurmOptions
+
 if TYPE_CHECKING:
     from rich.console import Console
 
     from evolution.experiments.cluster.connection import Connection
     from evolution.experiments.cluster.running import RemoteStart
-    from evolution.experiments.cluster.slurm import SlurmOptions
     from evolution.experiments.plan import Plan
-
-
-@dataclass(frozen=True)
-class SlurmFlags:
-    """What every SLURM job asks for; see docs/cluster.md for what is not given."""
-
-    file: Path | None = None
-    """TOML file whose table [slurm] has any of these; flags go before it."""
-
-    jobs: int | None = None
-    """SLURM jobs at most at a time; each is one worker. By default 1."""
-
-    cores: int | None = None
-    """Processors of each SLURM job, and runs at a time in it. By default 16."""
-
-    memory: str | None = None
-    """Memory of each SLURM job, such as 8GB. By default 300 MB for each core and 500 MB."""
-
-    walltime: str | None = None
-    """Longest time of each SLURM job, such as 04:00:00, the default."""
-
-    queue: str | None = None
-    """Partition."""
-
-    account: str | None = None
-    """Whom the time is charged to."""
-
-    interface: str | None = None
-    """Network interface by which the nodes reach this machine. By default lo, for this machine alone."""
-
-    directives: tuple[str, ...] | None = None
-    """More directives of sbatch, such as constraint=rome."""
-
-    prologue: tuple[str, ...] | None = None
-    """Lines of the job script before the worker, such as 'module load python'."""
-
-    tls: bool | None = None
-    """Encrypt, and let nobody in but this command and its workers. By default yes."""
-
-    def options(self) -> SlurmOptions:
-        """The options asked for: defaults, then the file, then flags."""
-        from evolution.experiments.cluster.slurm import SlurmOptions, read_options
-
-        given = {each.name: getattr(self, each.name) for each in fields(self) if each.name != "file"}
-        options = read_options(self.file) if self.file else SlurmOptions()
-        return options.with_values({name: value for name, value in given.items() if value is not None})
 
 
 @dataclass(frozen=True)
@@ -71,12 +26,16 @@ class ClusterFlags:
     """Where runs are done: here, if neither --scheduler nor --slurm is given."""
 
     scheduler: str | None = None
-    """Address of a Dask scheduler, such as tcp://10.0.0.1:8786; its workers do the runs."""
+    """Address of a Dask scheduler, such as tls://10.0.0.1:8786; its workers do the runs. Whoever reaches one
+    at tcp:// can run programs as you."""
 
     slurm: bool = False
     """Let SLURM start workers, and do the runs there."""
 
-    slurm_options: Annotated[SlurmFlags, arg(name="slurm")] = SlurmFlags()
+    slurm_file: Annotated[Path | None, arg(name="slurm.file")] = None
+    """TOML file whose table [slurm] has any of the following; flags go before it."""
+
+    slurm_options: Annotated[SlurmOptions, arg(name="slurm")] = field(default_factory=SlurmOptions)
 
     @property
     def given(self) -> bool:
@@ -91,7 +50,7 @@ class ClusterFlags:
         """
         if self.slurm and self.scheduler is not None:
             raise ValueError("--scheduler and --slurm are two ways to get workers; give one of them")
-        if not self.slurm and self.slurm_options != SlurmFlags():
+        if not self.slurm and (self.slurm_file or self.slurm_options != SlurmOptions()):
             raise ValueError("--slurm.* need --slurm; give it too, or leave them out")
         if self.given:
             _require_dask()
@@ -100,8 +59,8 @@ class ClusterFlags:
         """The same runs, in a folder whose name means the same on other machines."""
         return replace(plan, folder=plan.folder.resolve()) if self.given else plan
 
-    def show_script(self) -> int:
-        """What `--dry-run` does; the exit code.
+    def show_script(self, folder: Path) -> int:
+        """What `--dry-run` does for an experiment in a folder; the exit code.
 
         Raises:
             ValueError: If no SLURM is asked for.
@@ -110,7 +69,7 @@ class ClusterFlags:
             raise ValueError("--dry-run shows what SLURM would be given; it needs --slurm")
         from evolution.experiments.cluster.slurm import job_script
 
-        print(job_script(self.slurm_options.options()), end="")
+        print(job_script(self.slurm_options.complete(self.slurm_file), folder), end="")
         return 0
 
     @contextmanager
@@ -140,7 +99,7 @@ class ClusterFlags:
             return connected(self.scheduler, folder)
         from evolution.experiments.cluster.slurm import slurm_cluster
 
-        return slurm_cluster(self.slurm_options.options(), folder)
+        return slurm_cluster(self.slurm_options.complete(self.slurm_file), folder)
 
 
 def _require_dask() -> None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Self
 
 from tyro.conf import arg
 
@@ -28,8 +28,24 @@ class UncheckedReadings(Readings):
         return Readings.from_mapping(asdict(self))
 
 
-@dataclass(frozen=True)
-class Evolve:
+@dataclass(frozen=True, kw_only=True)
+class FromPreset:
+    """Options of commands that evolve in a world of the user's choice."""
+
+    preset: str = "default"
+    """Readings to start from: default, or printed (the paper at its word); single ones can be set below."""
+
+    readings: UncheckedReadings = field(default_factory=UncheckedReadings)
+
+    def preset_default(self) -> Self | None:
+        """The command without options, but in the world of the preset; None if that is the usual one."""
+        if self.preset == "default":
+            return None
+        return type(self)(readings=UncheckedReadings(**vars(Readings.preset(self.preset))))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evolve(FromPreset):
     """Evolve controllers from random genotypes; repeat the command to go on with a stopped run.
 
     Ctrl-C stops after the generation at hand, and nothing is lost.
@@ -48,11 +64,6 @@ class Evolve:
 
     output: Path | None = None
     """Run folder. By default runs/<experiment>/<condition>/seed-<seed>."""
-
-    preset: str = "default"
-    """Readings to start from: default, or printed (the paper at its word); single ones can be set below."""
-
-    readings: UncheckedReadings = UncheckedReadings()
 
     @property
     def config(self) -> RunConfig:
@@ -89,7 +100,7 @@ class Evolve:
 
 def _announce(path: Path, generation: int) -> None:
     """Say where the run starts, and what the user is waiting for if that will take a while."""
-    from arm2d.compiling import cache_folder
+    from arm2d.cache import cache_folder
 
     print(f"{path}: from generation {generation} on")
     compiled = cache_folder()

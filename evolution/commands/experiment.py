@@ -1,11 +1,11 @@
-"""`wordarm experiment`: all runs of an experiment file."""
+"""`wordarm experiment` and `wordarm status`: all runs of an experiment file, and how far they have come."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 from tyro.conf import Positional, arg
 
@@ -15,7 +15,8 @@ from evolution.commands.cluster_flags import ClusterFlags
 if TYPE_CHECKING:
     from evolution.experiments.plan import Plan
     from evolution.experiments.spec import ExperimentSpec
-    from evolution.experiments.standing import Standing
+
+MOST_ROWS: Final = 60
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ class ExperimentCommand:
     """Goes before the file's."""
 
     dry_run: bool = False
-    """List the runs and how long they will take, with --slurm also the script of its jobs; start nothing."""
+    """List the variants and how long they take, with --slurm also the script of its jobs; start nothing."""
 
     cluster: Annotated[ClusterFlags, arg(name="")] = ClusterFlags()  # noqa: RUF009 - frozen
 
@@ -49,7 +50,7 @@ class ExperimentCommand:
         """Evolve; the exit code is 130 if it was stopped, 2 if a run was given up."""
         from rich.console import Console
 
-        from evolution.experiments.plan_runner import processes, run_plan_shown
+        from evolution.experiments.plan_runner import plan_lines, processes, run_plan_shown
         from evolution.runs.interrupt import StopRequest
         from evolution.runs.lock import locked
         from evolution.runs.storage import make_folder
@@ -59,8 +60,9 @@ class ExperimentCommand:
         plan, at_once, console = self.cluster.placed(spec.plan()), processes(spec.jobs), Console()
         plan.check()
         if self.dry_run:
-            _list_runs(plan, spec, at_once)
-            return self.cluster.show_script() if self.cluster.slurm else 0
+            width = console.width if console.is_terminal else None
+            print("\n".join([*plan_lines(plan, at_once, width), f"{plan.folder}: {_count(plan, spec)}"]))
+            return self.cluster.show_script(plan.folder) if self.cluster.slurm else 0
         with self.cluster.opened(plan.folder, console) as elsewhere:
             make_folder(plan.folder)
             with locked(plan.folder), StopRequest() as stop:
@@ -79,8 +81,7 @@ class ExperimentCommand:
     def spec(self) -> ExperimentSpec:
         """What file and flags ask for."""
         from evolution.experiments.grid import read_experiment
-        from evolution.experiments.seeds import read_seeds
-        from evolution.experiments.spec import check_size
+        from evolution.experiments.spec import check_size, read_seeds
 
         spec = read_experiment(self.file)
         if self.generations is not None:
@@ -94,31 +95,48 @@ class ExperimentCommand:
         return spec
 
 
-def _list_runs(plan: Plan, spec: ExperimentSpec, at_once: int) -> None:
-    """Print every run with its time, and the whole."""
-    from evolution.experiments.estimate import expected_pace
-    from evolution.experiments.live_table import duration
-    from evolution.experiments.standing import time_left
+@dataclass(frozen=True)
+class Status:
+    """Show how far the runs of an experiment have come; nothing is written, whoever else is at work."""
 
-    standings = plan.standings()
-    pace, how = expected_pace(plan)
-    width = len(str(len(standings)))
-    for number, (config, each) in enumerate(zip(plan.configs, standings, strict=True), 1):
-        left = "damaged" if each.damage else "done" if each.done else f"about {duration(pace.left(each))}"
-        print(f"{number:{width}}  {plan.path(config)}  {config.settings.generations} generations, {left}")
-    print(_count(spec, standings))
-    print(f"about {duration(time_left(standings, pace, at_once))} in {at_once} processes, {how}")
+    path: Positional[Path]
+    """Experiment folder, with variants or without, or the folder of one run."""
+
+    every_run: Annotated[bool, arg(name="all")] = False
+    """A row for each run, however many there are; else more than 60 are summed up."""
+
+    def run(self) -> int:
+        """Read and print once."""
+        from rich.console import Console
+
+        from evolution.experiments.live_table import run_table
+        from evolution.experiments.plan_file import experiment_standings
+        from evolution.experiments.standing import pace_of
+        from evolution.runs.folder import RunFolder
+
+        standings, unreadable = experiment_standings(self.path)
+        at_work = sum(each.at_work for each in standings.values())
+        started = [RunFolder(path, each.config) for path, each in standings.items() if each.generations]
+        most_rows = None if self.every_run else MOST_ROWS
+        # A pipe has no width: nothing is to be cut there.
+        console = Console(highlight=False, markup=False, soft_wrap=not sys.stdout.isatty())
+        width = None if console.soft_wrap else console.width
+        console.print(
+            run_table(list(standings.values()), pace_of(started), max(at_work, 1), most_rows, width)
+        )
+        for sentence in unreadable:
+            console.print(sentence, style="red")
+        return 0
 
 
-def _count(spec: ExperimentSpec, standings: Sequence[Standing]) -> str:
+def _count(plan: Plan, spec: ExperimentSpec) -> str:
     """How many runs there are, and why so many."""
     factors = [
-        _plural(len(spec.worlds), "variant"),
+        _plural(len(spec.variants), "variant"),
         _plural(len(spec.conditions), "condition"),
         _plural(len(spec.seeds), "seed"),
     ]
-    done = sum(each.done for each in standings)
-    return f"{_plural(len(standings), 'run')}: {' x '.join(factors)}" + (f"; {done} done" if done else "")
+    return f"{_plural(len(plan.configs), 'run')}, {' x '.join(factors)}"
 
 
 def _plural(n: int, noun: str) -> str:

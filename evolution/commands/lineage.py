@@ -73,7 +73,7 @@ def _write(folder: RunFolder, lineage: Lineage, scores: LineageScores, rank: int
     """Write figure and arrays; their paths."""
     from evolution.agents.innovations import lineage_arrays
     from evolution.figures.lineage import lineage_figure
-    from evolution.figures.run import save_figure
+    from evolution.figures.page import save_figure
     from evolution.runs.storage import make_folder, write_arrays
 
     make_folder(output)

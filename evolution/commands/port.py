@@ -1,26 +1,32 @@
-"""`wordarm port`: an agent's trial, carried out by the humanoid."""
+"""`wordarm port`: an agent's trial, or all nine, carried out by the humanoid."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from tyro.conf import Positional, arg
 
 from arm2d import Instruction
 from evolution.commands.agent import AgentCommand
 
+if TYPE_CHECKING:
+    from arm2d import TrialRecord
+    from evolution.runs.sources import Agent
+
+ALL: Final = "all"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Port(AgentCommand):
-    """Show an agent carrying out an instruction on the humanoid, as a video."""
+    """Show an agent carrying out an instruction on the humanoid, as a video; or all nine, three by three."""
 
     instruction: Annotated[Positional[str], arg(metavar="INSTRUCTION")]
-    """An action word and an object word, such as "touch green"."""
+    """An action word and an object word, such as "touch green"; or all."""
 
     start_area: Literal["right", "left"] = "right"
-    """Where S1 starts: right or left."""
+    """Where S1 starts."""
 
     trial_seed: int = 0
     """Start angle and object positions follow from it."""
@@ -32,7 +38,9 @@ class Port(AgentCommand):
     """How finely it is drawn: high has all triangles, smooth edges, soft shadows, and takes some 15 times."""
 
     output: Path | None = None
-    """The video. By default `videos/<agent>-<instruction>.mp4` in the run folder, or in the current one."""
+    """The video; for all, its last picture lies beside it. A file of that name is replaced once the new one
+    is complete. By default `videos/<agent>-<instruction>.mp4` in the run folder or the current one; the name
+    also tells start area, seed, robot and physics where they are not the default."""
 
     physics: bool = False
     """Let the robot act: motors, free objects, contacts; prints what became of it in 2D and 3D."""
@@ -41,45 +49,110 @@ class Port(AgentCommand):
     """The agent's inputs come from the acting robot: objects seen where they are, or by a rendered camera."""
 
     video: bool = True
-    """Without a video, only the verdicts of an acting robot are printed."""
+    """Only print what became of the acting robot's trial."""
+
+    @property
+    def acts(self) -> bool:
+        """Whether the robot acts rather than follows."""
+        return self.physics or self.closed_loop is not None
 
     def run(self) -> int:
-        """Record the trial and let the humanoid follow it, or carry it out."""
-        physics = self.physics or self.closed_loop is not None
-        if not self.video and not physics:
+        """Record the trials and let the humanoid follow them, or carry them out."""
+        if not self.video and not self.acts:
             raise ValueError("without a video there is nothing to do but physics; add --physics")
-        instruction = Instruction.parse(self.instruction)
+        whole = self.instruction.strip().lower() == ALL
+        if whole and not self.video:
+            raise ValueError("all instructions are a video; count them without one by: wordarm agree")
+        instruction = None if whole else Instruction.parse(self.instruction)
 
-        from evolution.agents.recording import record_instruction
-        from evolution.runs.storage import make_folder
         from models.robots import get_robot
-        from mujoco_port.film.physical_port import check_acts, port_physical_trial
-        from mujoco_port.film.port import port_trial
 
         get_robot(self.robot)  # refuses unknown names before anything is made
         source = self.find_agent()
-        record = record_instruction(source, instruction, self.start_area, self.trial_seed)
-        home = Path() if source.folder is None else source.folder.path
-        words = f"{instruction.action.name}-{instruction.object.name}".lower()
-        output = self.output or home / "videos" / f"{source.name}-{words}.mp4"
-        if self.video:
-            if physics:
-                check_acts(self.robot)
-            make_folder(output.parent)
-        if physics:
-            shown = output if self.video else None
+        if instruction is None:
+            self._show_all(source)
+        else:
+            self._show(source, instruction)
+        return 0
+
+    def _show(self, source: Agent, instruction: Instruction) -> None:
+        """One instruction."""
+        from mujoco_port.film.physical_port import port_physical_trial
+        from mujoco_port.film.port import port_trial
+
+        record = self._record(source, instruction)
+        output = self._place(source, str(instruction))
+        if not self.acts:
+            port_trial(record, output, robot=self.robot, genotype=source.genotype, quality=self.quality)
+        else:
             verdict = port_physical_trial(
                 record,
                 source.genotype,
-                shown,
+                output if self.video else None,
                 robot=self.robot,
                 closed_loop=self.closed_loop,
                 quality=self.quality,
             )
             print(f"2D: {'carried out' if record.success else 'not carried out'}")
             print(f"3D: {'carried out' if verdict.success else 'not carried out: ' + verdict.reason}")
-        else:
-            port_trial(record, output, robot=self.robot, genotype=source.genotype, quality=self.quality)
         if self.video:
             print(output)
-        return 0
+
+    def _show_all(self, source: Agent) -> None:
+        """All nine instructions in one video, and its last picture."""
+        from mujoco_port.film.physical_port import port_physical_gallery
+        from mujoco_port.film.port import port_gallery
+
+        records = [self._record(source, instruction) for instruction in source.condition.instructions]
+        output = self._place(source, "gallery")
+        carried_out = sum(record.success for record in records)
+        title = f"{source.name}: nine instructions, two of them never met; {carried_out} carried out"
+        if not self.acts:
+            paths = port_gallery(records, title, output, robot=self.robot, quality=self.quality)
+        else:
+            paths, verdicts = port_physical_gallery(
+                records,
+                source.genotype,
+                f"{title} in 2D",
+                output,
+                robot=self.robot,
+                closed_loop=self.closed_loop,
+                quality=self.quality,
+            )
+            for record, verdict in zip(records, verdicts, strict=True):
+                planar = "carried out" if record.success else "not carried out"
+                spatial = "carried out" if verdict.success else f"not carried out: {verdict.reason}"
+                print(f"{record.instruction}: 2D {planar}, 3D {spatial}")
+        for path in paths:
+            print(path)
+
+    def _record(self, source: Agent, instruction: Instruction) -> TrialRecord:
+        """The trial, as the planar arm carries it out."""
+        from evolution.agents.recording import record_instruction
+
+        return record_instruction(source, instruction, self.start_area, self.trial_seed)
+
+    def _place(self, source: Agent, what: str) -> Path:
+        """Where the video goes, its folder made; the robot is refused first if it cannot act."""
+        from evolution.runs.storage import make_folder
+        from mujoco_port.film.names import film_name
+        from mujoco_port.film.physical_port import check_acts
+        from mujoco_port.film.port import check_films
+
+        home = Path() if source.folder is None else source.folder.path
+        name = film_name(
+            source.name,
+            what,
+            start_area=self.start_area,
+            trial_seed=self.trial_seed,
+            robot=self.robot,
+            physics=self.acts,
+            closed_loop=self.closed_loop,
+        )
+        output = self.output or home / "videos" / name
+        if self.video:
+            if self.acts:
+                check_acts(self.robot)
+            check_films()
+            make_folder(output.parent)
+        return output

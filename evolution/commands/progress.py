@@ -10,6 +10,7 @@ from typing import Final
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from evolution.runs.intervals import at_intervals
 from evolution.runs.run import Progress as Scored
 
 # Seconds between two plain lines, and between two redrawings of the live one.
@@ -22,22 +23,15 @@ def shown_progress(console: Console, total: int) -> Iterator[Callable[[Scored], 
     """While open, gives a function to be called after each generation of a run of `total`."""
     if console.is_terminal:
         with _live_bar(console) as bar:
-            yield _at_intervals(LIVE_INTERVAL, total, _redraw(bar, total))
+            yield _and_the_last(total, LIVE_INTERVAL, _redraw(bar, total))
     else:
-        yield _at_intervals(PLAIN_INTERVAL, total, _plain_line(console, total))
+        yield _and_the_last(total, PLAIN_INTERVAL, _plain_line(console, total))
 
 
-def _at_intervals(seconds: float, total: int, show: Callable[[Scored], None]) -> Callable[[Scored], None]:
+def _and_the_last(total: int, seconds: float, show: Callable[[Scored], None]) -> Callable[[Scored], None]:
     """Call `show` at most every so many seconds, and for the last generation."""
-    shown_at = float("-inf")
-
-    def maybe_show(scored: Scored) -> None:
-        nonlocal shown_at
-        if time.monotonic() - shown_at >= seconds or scored.generation == total - 1:
-            shown_at = time.monotonic()
-            show(scored)
-
-    return maybe_show
+    now_and_then = at_intervals(seconds, show)
+    return lambda scored: (show if scored.generation == total - 1 else now_and_then)(scored)
 
 
 def _live_bar(console: Console) -> Progress:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -12,21 +12,22 @@ from tyro.conf import arg
 from arm2d import Condition
 from evolution.answers import BAD_INPUT, INTERRUPTED
 from evolution.commands.cluster_flags import ClusterFlags
-from evolution.commands.evolve import UncheckedReadings
+from evolution.commands.evolve import FromPreset
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
 if TYPE_CHECKING:
     from evolution.experiments.jobs import Failure
     from evolution.experiments.plan import Plan
+    from evolution.experiments.workers import Job
     from evolution.results.records import Results
     from evolution.runs.interrupt import StopRequest
 
 MOST_RUNS: Final = 10_000
 
 
-@dataclass(frozen=True)
-class Reproduce:
+@dataclass(frozen=True, kw_only=True)
+class Reproduce(FromPreset):
     """Evolve and test runs of both conditions, then write tables, figures and the report.
 
     Repeat the command to go on; what is done is not done again. Ctrl-C loses nothing.
@@ -47,11 +48,6 @@ class Reproduce:
     cluster: Annotated[ClusterFlags, arg(name="")] = ClusterFlags()  # noqa: RUF009 - frozen
 
     settings: Annotated[Settings, arg(name="")] = Settings()  # noqa: RUF009 - frozen
-
-    preset: str = "default"
-    """Readings to start from: default, or printed (the paper at its word); single ones can be set below."""
-
-    readings: UncheckedReadings = field(default_factory=UncheckedReadings)
 
     @property
     def plan(self) -> Plan:
@@ -82,7 +78,7 @@ class Reproduce:
         plan, began, console = self.cluster.placed(self.plan), time.monotonic(), Console()
         plan.check()
         if self.dry_run:
-            return self.cluster.show_script()
+            return self.cluster.show_script(plan.folder)
         with self.cluster.opened(plan.folder, console) as elsewhere:
             make_folder(plan.folder)
             with locked(plan.folder):
@@ -119,18 +115,17 @@ def _analyse(folder: Path) -> Results:
 
 def _look_at_agents(results: Results, folder: Path, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
     """Trace and observe the best agent of each condition, and observe classes; the jobs given up."""
-    from evolution.commands.reproduction import agent_chains, class_chains
-    from evolution.experiments.jobs import Watcher, run_jobs
+    from evolution.experiments.jobs import Overseer, run_jobs
     from evolution.experiments.stage_times import note_time
 
-    if chains := agent_chains(results, folder) + class_chains(results, folder):
+    if chains := _agent_chains(results, folder) + _class_chains(results, folder):
         print("tracing the best agents' ancestors, and what they and their classes do", flush=True)
-    watcher = Watcher(
+    overseer = Overseer(
         on_end=lambda ended: note_time(folder, ended),
         on_note=lambda note: print(note, flush=True),
         wants_stop=lambda: stop.requested,
     )
-    return run_jobs(chains, at_once, watcher)
+    return run_jobs(chains, at_once, overseer)
 
 
 def _report(results: Results, folder: Path) -> None:
@@ -155,3 +150,67 @@ def _tell_times(folder: Path, wall: float) -> None:
     print(f"this command took {duration(wall)}; all its processes so far:")
     for line in time_lines(stage_times(folder)):
         print(f"  {line}")
+
+
+def _agent_chains(results: Results, folder: Path) -> list[list[Job]]:
+    """What is still to be drawn of the best agent of each condition: its ancestors, and how it does it."""
+    from evolution.child import reference
+    from evolution.experiments.plan import LOGS
+    from evolution.experiments.workers import Job
+    from evolution.results.notable import best_agent
+
+    chains = []
+    for condition, of_condition in results.conditions.items():
+        if (agent := best_agent(of_condition)) is None:
+            continue
+        path, stem = agent.run.path, f"generation-{agent.generation:06d}-rank-{agent.rank}"
+        name, log = f"{condition}, its best agent", folder / LOGS / f"{condition}-best-agent.log"
+        which = {"folder": str(path), "generation": agent.generation, "rank": agent.rank}
+        for function, stage, done in (
+            (trace_ancestors, "tracing ancestors", path / "lineage" / f"{stem}.npz"),
+            (observe_agent, "observing", path / "behaviour" / f"{stem}-behaviour.npz"),
+        ):
+            if not done.exists():
+                chains.append([Job(name, stage, reference(function), which, path, log)])
+    return chains
+
+
+def _class_chains(results: Results, folder: Path) -> list[list[Job]]:
+    """What is still to be observed of the classes of agents, run by run."""
+    from evolution.agents.classes import Sampling, observation_path
+    from evolution.agents.subtasks import AgentClass
+    from evolution.child import reference
+    from evolution.experiments.plan import LOGS
+    from evolution.experiments.workers import Job
+
+    chains = []
+    for condition, of_condition in results.conditions.items():
+        for index, run in enumerate(of_condition.runs):
+            some = any(of_condition.members[kind][index] for kind in AgentClass)
+            if some and not observation_path(run, Sampling()).exists():
+                log = folder / LOGS / f"{condition}-seed-{run.config.seed:04d}.log"
+                name, which = f"{condition}, seed {run.config.seed}", {"folder": str(run.path)}
+                job = Job(name, "observing classes", reference(observe_classes), which, run.path, log)
+                chains.append([job])
+    return chains
+
+
+def trace_ancestors(folder: str, generation: int, rank: int) -> int:
+    """`wordarm lineage` of an agent, in a process of its own."""
+    from evolution.commands.lineage import LineageCommand
+
+    return LineageCommand(Path(folder), generation, rank).run()
+
+
+def observe_agent(folder: str, generation: int, rank: int) -> int:
+    """`wordarm behaviour` of an agent, in a process of its own."""
+    from evolution.commands.behaviour import BehaviourCommand
+
+    return BehaviourCommand(folder, generation=generation, rank=rank).run()
+
+
+def observe_classes(folder: str) -> int:
+    """`wordarm behaviour --classes` of a run, in a process of its own, without its figures."""
+    from evolution.commands.behaviour import BehaviourCommand
+
+    return BehaviourCommand(folder, classes=True, figures=False).run()

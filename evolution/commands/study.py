@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from tyro.conf import Positional
+from tyro.conf import Positional, arg
 
 from evolution.answers import BAD_INPUT, INTERRUPTED
 
@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from evolution.experiments.jobs import Failure
     from evolution.experiments.plan import Plan
     from evolution.runs.interrupt import StopRequest
+    from evolution.search.config import RunConfig
+    from evolution.study.declared.parts import DeclaredPart
+    from evolution.study.declared.rows import MeasuredRun
     from evolution.study.variants import Part
 
 
@@ -25,10 +28,12 @@ class StudyCommand:
     Repeat the command to go on; what is done is not done again. Ctrl-C loses nothing.
     """
 
-    name: Positional[Literal["readings"]]
+    name: Annotated[Positional[Literal["readings"]], arg(metavar="STUDY")]
     """The study: readings, what the paper leaves open (docs/readings.md)."""
 
-    part: Literal["screening", "finalists", "around", "confirmation"] = "screening"
+    part: Literal[
+        "screening", "finalists", "around", "confirmation", "factorial", "fresh", "less-one", "hundred"
+    ] = "screening"
     """screening (3000 generations, one reading at a time and the geometry in depth), finalists (the whole
     experiment under the default and the three that came nearest to the paper in the screening), around (as
     the screening: other sizes of mutations, and one reading at a time on top of the favoured size) or
@@ -53,6 +58,13 @@ class StudyCommand:
     results: Path | None = None
     """Folder for tables and pictures, by default results in the part's folder."""
 
+    rows: Path | None = None
+    """File of measured rows to begin with, such as docs/results/readings/factorial.csv: its runs are not
+    evolved again. A declared part keeps the rows of all its runs in rows.csv in its folder."""
+
+    early: bool = False
+    """Choose and compare with as many runs of the declared parts before as are measured by now."""
+
     def run(self) -> int:
         """Study; the exit code is 130 if it was stopped, 2 if a run was given up or nothing is measured."""
         from evolution.experiments.plan_runner import processes
@@ -60,6 +72,10 @@ class StudyCommand:
         from evolution.runs.lock import locked
         from evolution.runs.storage import make_folder
 
+        if self.part in ("factorial", "fresh", "less-one", "hundred"):
+            return self._run_declared()
+        if self.rows is not None or self.early:
+            raise ValueError(f"--rows and --early are for declared parts, which {self.part} is not")
         part, at_once = self._part(), processes(self.jobs)
         plan = _plan(part, self.output)
         failures = ()
@@ -75,6 +91,45 @@ class StudyCommand:
         for each in failures:
             print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
         return BAD_INPUT if failures else 0
+
+    def _run_declared(self) -> int:
+        """Evolve and measure what has no row yet."""
+        from evolution.experiments.plan_runner import processes
+        from evolution.runs.interrupt import StopRequest
+        from evolution.study.declared.plan import carry_out
+        from evolution.study.declared.study import DeclaredStudy
+        from evolution.study.measures import check_generations
+
+        if self.seeds is not None:
+            raise ValueError(f"every run of the part {self.part} has its seed; leave --seeds away")
+        if self.generations is not None:
+            check_generations(self.generations)
+        study = DeclaredStudy(self.output, generations=self.generations, early=self.early)
+        part = study.part(self.part)
+        rows, known, failures = study.rows(part), self._known(part), ()
+        if not self.now:
+            with StopRequest() as stop:
+                failures = carry_out(rows, rows.path.parent, processes(self.jobs), stop, known.values())
+            if stop.requested:
+                print("stopped; go on with the same command")
+                return INTERRUPTED
+        found = known | rows.read()
+        runs = [found[config] for config in part.configs if config in found]
+        paths, notes = study.write(part, runs, self.results or rows.path.parent / "results")
+        print(*paths, *notes, f"{len(runs)} of {len(part.configs)} runs are measured so far", sep="\n")
+        for each in failures:
+            print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
+        return BAD_INPUT if failures else 0
+
+    def _known(self, part: DeclaredPart) -> dict[RunConfig, MeasuredRun]:
+        """The runs of the file of rows to begin with, if there is one."""
+        from evolution.study.declared.plan import RowFile
+
+        if self.rows is None:
+            return {}
+        if not self.rows.is_file():
+            raise ValueError(f"there is no file {self.rows}; give one that a study of the same part wrote")
+        return RowFile(self.rows, part).read()
 
     def _part(self) -> Part:
         """The part that is asked for, with the numbers of seeds and generations that are."""

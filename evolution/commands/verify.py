@@ -1,4 +1,4 @@
-"""`wordarm verify`: whether a run is what its config.toml gives."""
+"""`wordarm verify`: whether a run is what its config.toml gives; its damaged files made again."""
 
 from __future__ import annotations
 
@@ -35,8 +35,25 @@ class Verify:
     sample: int | None = None
     """Score only so many again, spread evenly over the run."""
 
+    repair: bool = False
+    """Instead of comparing, compute the damaged or missing files again, with the bits they had."""
+
     def run(self) -> int:
-        """Compare and print the verdict."""
+        """Compare and print the verdict, or repair."""
+        if self.repair:
+            return self._repair()
+        return self._compare()
+
+    def _repair(self) -> int:
+        if self.generations is not None or self.sample is not None:
+            raise ValueError("--repair scores what is damaged; leave --generations and --sample out")
+        from evolution.trust.repair import repair
+
+        n_repaired = repair(self.run_folder, print)
+        print(f"{self.run_folder} is sound" + (f": {n_repaired} files repaired" if n_repaired else ""))
+        return 0
+
+    def _compare(self) -> int:
         from rich.console import Console
 
         from evolution.commands.progress import shown_progress

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from arm2d import Condition, Readings
-from evolution.agents.postevaluation import progress
 from evolution.runs.folder import CONFIG, RunFolder
-from evolution.runs.storage import DamagedFileError
+from evolution.search.config import RunConfig
 
 
 @dataclass(frozen=True)
@@ -23,11 +22,13 @@ class Experiment:
         path: Its folder.
         runs: By condition.
         unreadable: A sentence for every run whose config.toml cannot be understood.
+        copies: A sentence for every folder that holds a run which another one holds too.
     """
 
     path: Path
     runs: Mapping[Condition, tuple[RunFolder, ...]]
     unreadable: tuple[str, ...] = ()
+    copies: tuple[str, ...] = ()
 
     @property
     def all_runs(self) -> tuple[RunFolder, ...]:
@@ -52,41 +53,13 @@ class Experiment:
         return self.all_runs[0].config.readings
 
 
-@dataclass(frozen=True)
-class RunState:
-    """How far a run has come.
-
-    Attributes:
-        run: The run.
-        generations: How many are in finished parts.
-        evaluated: Parts post-evaluated, of `to_evaluate`.
-        to_evaluate: Parts to be post-evaluated.
-        damage: What is wrong with it, or nothing.
-    """
-
-    run: RunFolder
-    generations: int
-    evaluated: int
-    to_evaluate: int
-    damage: str = ""
-
-    @property
-    def finished(self) -> bool:
-        """Whether evolution is over."""
-        return self.generations >= self.run.config.settings.generations
-
-    @property
-    def complete(self) -> bool:
-        """Whether it can be analysed whole."""
-        return self.finished and self.evaluated == self.to_evaluate and not self.damage
-
-
-def open_experiment(path: Path) -> Experiment:
+def open_experiment(path: Path | str) -> Experiment:
     """The experiment in a folder; a single run's folder is an experiment of one.
 
     Raises:
-        ValueError: If there is no readable run in it, or its runs took place in different worlds.
+        ValueError: If there is no readable run in it, or its runs took place under different readings.
     """
+    path = Path(path)
     folders = (
         [path] if (path / CONFIG).is_file() else sorted(each.parent for each in path.glob(f"*/*/{CONFIG}"))
     )
@@ -100,18 +73,20 @@ def open_experiment(path: Path) -> Experiment:
             f"{path} holds no runs; an experiment holds <condition>/seed-<seed>/{CONFIG}: "
             "give such a folder, or start one with: wordarm reproduce"
         )
-    runs, unreadable = _opened(folders)
-    worlds = {run.config.readings for run in runs}
-    if len(worlds) > 1:
+    opened, unreadable = _opened(folders)
+    runs, copies = _without_copies(opened)
+    readings = {run.config.readings for run in runs}
+    if len(readings) > 1:
         raise ValueError(
-            f"the runs in {path} took place under {len(worlds)} different readings; analyse them apart"
+            f"the runs in {path} took place under {len(readings)} different readings; analyse them apart"
         )
     by_condition = {c: tuple(run for run in runs if run.config.condition is c) for c in Condition}
-    return Experiment(path, {c: runs for c, runs in by_condition.items() if runs}, tuple(unreadable))
+    shown = {c: runs for c, runs in by_condition.items() if runs}
+    return Experiment(path, shown, tuple(unreadable), tuple(copies))
 
 
 def _opened(folders: Iterable[Path]) -> tuple[list[RunFolder], list[str]]:
-    """The runs that can be opened, by seed, and what is wrong with the others.
+    """The runs that can be opened, and what is wrong with the others.
 
     Raises:
         ValueError: If none can, with what is wrong with the first.
@@ -124,14 +99,26 @@ def _opened(folders: Iterable[Path]) -> tuple[list[RunFolder], list[str]]:
             unreadable.append(str(error))
     if not runs:
         raise ValueError(unreadable[0])
-    return sorted(runs, key=lambda run: run.config.seed), unreadable
+    return runs, unreadable
 
 
-def state_of(run: RunFolder) -> RunState:
-    """How far a run has come, damage included."""
-    evaluated, to_evaluate = progress(run)
-    try:
-        spans = run.finished_spans()
-        return RunState(run, spans[-1].stop if spans else 0, evaluated, to_evaluate)
-    except DamagedFileError as error:
-        return RunState(run, 0, evaluated, to_evaluate, str(error))
+def _without_copies(runs: Iterable[RunFolder]) -> tuple[list[RunFolder], list[str]]:
+    """Every run once, and a sentence for each folder that holds one of them again.
+
+    One configuration with one seed gives one result: counted twice, it would pass for two.
+    """
+    found: dict[RunConfig, RunFolder] = {}
+    copies = []
+    for run in sorted(runs, key=lambda run: (run.config.seed, not _has_its_own_name(run), run.path)):
+        first = found.setdefault(run.config, run)
+        if first is not run:
+            copies.append(
+                f"{run.path} holds the same run as {first.path} (configuration and seed), which is counted "
+                "once; move the copy elsewhere"
+            )
+    return list(found.values()), copies
+
+
+def _has_its_own_name(run: RunFolder) -> bool:
+    """Whether a run lies where it was made, rather than where it was copied."""
+    return run.path.name == f"seed-{run.config.seed:04d}" and run.path.parent.name == run.config.condition

@@ -1,13 +1,16 @@
 """A process that has loaded and compiled everything once, and forks a worker for every job it is sent.
 
 Starting Python, loading Numba and reading machine code back takes a second; a fork takes a hundredth of
-it. Spoken over a socket that keeps messages apart; its number is the only argument:
+it. Spoken over a socket that keeps messages apart:
 
-    to it       {"arguments": [...], "log": "..."}
+    to it       {"function": "...", "arguments": {...}, "log": "..."}
     from it     {"ready": true} once; {"started": pid} with a pidfd for every job;
                 {"ended": pid, "status": ..., "cpu": [s], "peak": [MB]} for every worker that ended
 
 It ends when the other side does; its workers go on.
+
+Why not the standard library's forkserver: it starts workers as fast, but keeps their CPU time and memory to
+itself, reports a worker that outlives it as ended, hands its own descriptors on and listens at a path.
 """
 
 from __future__ import annotations
@@ -20,28 +23,37 @@ import signal
 import socket
 import sys
 import traceback
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, Final, NoReturn
+
+from arm2d.files import handle_to_append
+from evolution.child import perform
 
 LARGEST_MESSAGE: Final = 200_000  # [bytes]
 
 
-def main() -> None:
-    """Load, then fork until nobody asks any more."""
+def fork_workers(descriptor: int) -> int:
+    """Load, then fork until nobody asks any more.
+
+    Args:
+        descriptor: Our end of the socket.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    with socket.socket(fileno=int(sys.argv[1])) as client:
+    with socket.socket(fileno=descriptor) as client:
         _load()
         # What is there now stays: the collector need not touch it, so workers go on sharing its memory.
         gc.collect()
         gc.freeze()
         _tell(client, {"ready": True})
         _serve(client)
+    return 0
 
 
 def _load() -> None:
-    """Compile or load all that evolution runs, by a generation of each condition."""
-    import evolution.runs.run  # noqa: F401 - loaded for the workers
+    """Compile or load all that the stages of a run need, by a generation of each condition."""
+    import evolution.experiments.stages  # noqa: F401 - loaded for the workers
     from arm2d import Condition
-    from evolution.cli import parse
     from evolution.search.config import RunConfig
     from evolution.search.evaluation import evaluate
     from evolution.search.population import first_population, next_population
@@ -53,8 +65,6 @@ def _load() -> None:
         population = first_population(config)
         next_population(population, score_population(population, config), config)
         evaluate(population.genotypes[:1], condition, config.readings)
-        # The option parser remembers types it has seen.
-        parse(["evolve", f"--condition={condition}"])
 
 
 def _serve(client: socket.socket) -> None:
@@ -79,7 +89,7 @@ def _fork(client: socket.socket, message: dict[str, Any]) -> tuple[int, int]:
     """A new worker's number and pidfd, which the client is sent too."""
     pid = os.fork()
     if not pid:
-        _work(message["arguments"], message["log"])
+        _work(message["function"], message["arguments"], message["log"])
     pidfd = os.pidfd_open(pid)
     try:
         socket.send_fds(client, [json.dumps({"started": pid}).encode()], [pidfd])
@@ -103,20 +113,18 @@ def _tell(client: socket.socket, message: dict[str, Any]) -> None:
         sys.exit()
 
 
-def _work(arguments: list[str], log: str) -> NoReturn:
-    """Be the worker: as `python -m evolution <arguments>`, its output added to the log."""
+def _work(function: str, arguments: Mapping[str, Any], log: str) -> NoReturn:
+    """Be the worker: call a function, its output added to the log."""
     code = 1
     try:
         os.setpgid(0, 0)
         signal.signal(signal.SIGINT, signal.default_int_handler)
-        output = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
+        output = handle_to_append(Path(log))
         os.dup2(output, 1)
         os.dup2(output, 2)
         # Also our end of the socket: whether the server lives is seen by its end.
         os.closerange(3, os.sysconf("SC_OPEN_MAX"))
-        from evolution.cli import main as command_line
-
-        code = command_line(arguments)
+        code = perform(function, arguments)
     except SystemExit as error:
         code = error.code if isinstance(error.code, int) else 1
     except BaseException:
@@ -126,7 +134,3 @@ def _work(arguments: list[str], log: str) -> NoReturn:
         sys.stdout.flush()
         sys.stderr.flush()
         os._exit(code)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,8 +1,8 @@
 """An experiment file: which runs, as one TOML file (docs/experiments.md).
 
 Any setting and any reading may be a list of values; the experiment is then every combination of them.
-`sector_centres`, itself a list, becomes a grid as a list of lists. A [[variant]] is a world with a name; if
-there are any, each of them is a grid of its own, on top of what the whole file sets.
+`sector_centres`, itself a list, becomes a grid as a list of lists. A [[variant]] has a name; if there are
+any, each of them is a grid of its own, on top of what the whole file sets.
 """
 
 from __future__ import annotations
@@ -15,13 +15,10 @@ from pathlib import Path
 from typing import Any, Final
 
 from arm2d import Condition, Readings
-from evolution.experiments.plan import World
-from evolution.experiments.seeds import read_seeds
-from evolution.experiments.spec import ExperimentSpec, check_size
-from evolution.experiments.variants import check_name, value_name, variant_name
+from evolution.experiments.spec import ExperimentSpec, check_size, read_seeds
+from evolution.experiments.variants import Variant, check_name, value_name
 from evolution.search.settings import Settings
-from evolution.search.toml import read_toml
-from evolution.search.toml_keys import check_keys, one_of_kind, table_of
+from evolution.search.toml import check_keys, one_of_kind, read_toml, table_of
 
 KEYS: Final = (
     "output", "jobs", "conditions", "seeds", "preset", "post_evaluate", "settings", "readings", "variant",
@@ -32,13 +29,14 @@ MOST_VARIANTS: Final = 10_000
 LARGEST_WHOLE: Final = 10**300
 
 
-def read_experiment(path: Path) -> ExperimentSpec:
+def read_experiment(path: Path | str) -> ExperimentSpec:
     """What an experiment file asks for.
 
     Raises:
         ValueError: With one sentence, if the file cannot be read, is no TOML, has an unknown key, a value of
             the wrong kind, an empty grid, or the same thing twice.
     """
+    path = Path(path)
     try:
         values = read_toml(_text_of(path), LARGEST_FILE)
         return experiment_from_mapping(values, Path("runs") / path.stem)
@@ -57,7 +55,7 @@ def experiment_from_mapping(values: Mapping[str, Any], output: Path) -> Experime
         _output(values.get("output"), output),
         _conditions(values.get("conditions", ["with-indicate"])),
         read_seeds(values.get("seeds", 1)),
-        dict(_worlds(values)),
+        dict(_variants(values)),
         one_of_kind("post_evaluate", values.get("post_evaluate", False), bool),
         one_of_kind("jobs", values["jobs"], int) if "jobs" in values else None,
     )
@@ -102,43 +100,43 @@ def _conditions(value: Any) -> tuple[Condition, ...]:
     return conditions
 
 
-def _worlds(values: Mapping[str, Any]) -> Iterator[tuple[World, str | None]]:
-    """Readings and settings of every variant, each once."""
+def _variants(values: Mapping[str, Any]) -> Iterator[tuple[Variant, str | None]]:
+    """Every variant once, with its name if it has one."""
     base = Readings.preset(one_of_kind("preset", values.get("preset", "default"), str))
-    variants = values.get("variant", [{}])
-    if not isinstance(variants, list) or not variants or not all(isinstance(v, Mapping) for v in variants):
+    tables = values.get("variant", [{}])
+    if not isinstance(tables, list) or not tables or not all(isinstance(each, Mapping) for each in tables):
         raise ValueError("variant must be tables, each headed [[variant]]")
-    names: dict[World, str | None] = {}
-    for variant in variants:
-        for world, name in _grid(values, variant, base, named="variant" in values):
-            if world in names:
-                told = name or variant_name(*world)
-                raise ValueError(f"variant {told!r} is the same as {names[world] or told!r}; leave one out")
-            names[world] = name
-            yield world, name
+    names: dict[Variant, str | None] = {}
+    for table in tables:
+        for variant, name in _grid(values, table, base, named="variant" in values):
+            if variant in names:
+                told = name or variant.name()
+                raise ValueError(f"variant {told!r} is the same as {names[variant] or told!r}; leave one out")
+            names[variant] = name
+            yield variant, name
 
 
 def _grid(
-    values: Mapping[str, Any], variant: Mapping[str, Any], base: Readings, named: bool
-) -> Iterator[tuple[World, str | None]]:
-    """Every combination of a variant's values, which go before those of the whole file."""
-    check_keys("key", variant, VARIANT_KEYS, " in [[variant]]")
-    if named and "name" not in variant:
+    values: Mapping[str, Any], table: Mapping[str, Any], base: Readings, named: bool
+) -> Iterator[tuple[Variant, str | None]]:
+    """Every combination of the values in a [[variant]], which go before those of the whole file."""
+    check_keys("key", table, VARIANT_KEYS, " in [[variant]]")
+    if named and "name" not in table:
         raise ValueError("a [[variant]] has no name; give it one, such as name = 'wide'")
-    name = check_name(variant["name"]) if named else None
-    settings = {**_table(values, "settings", Settings), **_table(variant, "settings", Settings)}
-    readings = {**_table(values, "readings", Readings), **_table(variant, "readings", Readings)}
+    name = check_name(table["name"]) if named else None
+    settings = {**_table(values, "settings", Settings), **_table(table, "settings", Settings)}
+    readings = {**_table(values, "readings", Readings), **_table(table, "readings", Readings)}
     if (size := prod(map(len, [*settings.values(), *readings.values()]))) > MOST_VARIANTS:
         raise ValueError(f"this grid has {size:,} variants; at most {MOST_VARIANTS:,} can be told apart")
     for chosen in product(*settings.values(), *readings.values()):
         own = dict(zip([*settings, *readings], chosen, strict=True))
-        world = (
+        variant = Variant(
             base.with_values({key: own[key] for key in readings}),
             Settings.from_mapping({key: own[key] for key in settings}),
         )
         varied = [each for each, options in {**readings, **settings}.items() if len(options) > 1]
         parts = [value_name(each, own[each]) for each in varied]
-        yield world, "+".join([name, *parts]) if name else None
+        yield variant, "+".join([name, *parts]) if name else None
 
 
 def _table(values: Mapping[str, Any], key: str, record: type) -> dict[str, list[Any]]:

@@ -32,7 +32,7 @@ class Failure:
 
 
 @dataclass(frozen=True)
-class Watcher:
+class Overseer:
     """What the runner of jobs tells its caller, and asks of it.
 
     Attributes:
@@ -63,7 +63,10 @@ class Start(Protocol):
 
 
 def run_jobs(
-    chains: Sequence[Sequence[Job]], at_once: int, watcher: Watcher | None = None, start: Start | None = None
+    chains: Sequence[Sequence[Job]],
+    at_once: int,
+    overseer: Overseer | None = None,
+    start: Start | None = None,
 ) -> tuple[Failure, ...]:
     """Run chains of jobs, `at_once` processes at a time; a chain that was begun goes before others.
 
@@ -73,7 +76,7 @@ def run_jobs(
     Args:
         chains: The jobs.
         at_once: Processes at a time, at least 1.
-        watcher: Is told of what happens, and may stop it.
+        overseer: Is told of what happens, and may stop it.
         start: How workers are started; by default each as a new Python process.
 
     Returns:
@@ -83,11 +86,11 @@ def run_jobs(
         OSError: If a log cannot be written, or no process can be started.
     """
     waiting = [list(chain) for chain in chains if chain]
-    runner = _Runner(waiting, watcher or Watcher(), start or ColdStart())
+    runner = _Runner(waiting, overseer or Overseer(), start or ColdStart())
     with _none_left_behind(runner):
-        while runner.workers or (runner.waiting and not runner.watcher.wants_stop()):
+        while runner.workers or (runner.waiting and not runner.overseer.wants_stop()):
             _start_or_stop(runner, at_once)
-            runner.watcher.on_tick([worker.job for worker, _ in runner.workers if worker.begun])
+            runner.overseer.on_tick([worker.job for worker, _ in runner.workers if worker.begun])
             runner.start.wait([worker for worker, _ in runner.workers], POLL_INTERVAL)
             _take_note_of_ends(runner)
     return tuple(runner.failures)
@@ -111,7 +114,7 @@ class _Runner:
     """The state of `run_jobs`: chains not at work, and workers with the jobs that follow."""
 
     waiting: list[list[Job]]
-    watcher: Watcher
+    overseer: Overseer
     start: Start
     workers: list[tuple[Worker, list[Job]]] = field(default_factory=list)
     tallies: dict[Job, _Tally] = field(default_factory=dict)
@@ -120,12 +123,12 @@ class _Runner:
 
 def _start_or_stop(runner: _Runner, at_once: int) -> None:
     """Fill the free places, or tell all to stop."""
-    if runner.watcher.wants_stop():
+    if runner.overseer.wants_stop():
         for worker, _ in runner.workers:
             worker.stop()
         return
     for chain in list(runner.waiting):
-        if len(runner.workers) < at_once and runner.watcher.may_start(chain[0]):
+        if len(runner.workers) < at_once and runner.overseer.may_start(chain[0]):
             runner.workers.append((runner.start.start(chain[0]), chain[1:]))
             runner.waiting.remove(chain)
 
@@ -136,7 +139,7 @@ def _take_note_of_ends(runner: _Runner) -> None:
         worker, later = pair
         if ended := worker.look():
             runner.workers.remove(pair)
-            runner.watcher.on_end(ended)
+            runner.overseer.on_end(ended)
             if ended.exit_code == 0:
                 runner.waiting[:0] = [later] if later else []
             elif not worker.told_to_stop:
@@ -148,7 +151,7 @@ def _start_again_or_give_up(runner: _Runner, worker: Worker, later: list[Job], e
     if ended.exit_code == BAD_INPUT:
         runner.failures.append(Failure(job, worker.sentence()))
     elif _deserves_another_start(runner, job):
-        runner.watcher.on_note(f"{job.name}: {ended.how} while {job.stage}; started again")
+        runner.overseer.on_note(f"{job.name}: {ended.how} while {job.stage}; started again")
         runner.waiting.insert(0, [job, *later])
     else:
         times = f"{ended.how}, {MOST_RESTARTS + 1} times without progress"

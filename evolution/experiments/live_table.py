@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
-import time
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from statistics import median
-from typing import Final
+from typing import Final, NamedTuple
 
 from rich.console import Console, Group, RenderableType
 from rich.live import Live
-from rich.table import Table
 from rich.text import Text
 
 from evolution.experiments.standing import Pace, Standing, time_left
+from evolution.experiments.variants import told_apart
+from evolution.runs.intervals import at_intervals
 
 # Seconds between two redrawings of the table, and between two groups of plain lines.
 LIVE_INTERVAL: Final = 1.0
@@ -24,52 +25,79 @@ LARGEST_SHARE: Final = 0.02
 STYLES: Final = {
     "waiting": "dim", "evolving": "cyan", "testing": "magenta", "done": "green", "damaged": "bold red",
 }  # fmt: skip
+GAP: Final = "  "
+
+
+class Row(NamedTuple):
+    """A line of a table: variant and rest of the name, then cells, the first of which may have a style."""
+
+    variant: str
+    rest: str
+    cells: tuple[str, ...]
+    style: str = ""
 
 
 def run_table(
-    standings: Sequence[Standing], pace: Pace, at_once: int, most_rows: int | None = None
+    standings: Sequence[Standing],
+    pace: Pace,
+    at_once: int,
+    most_rows: int | None = None,
+    width: int | None = None,
 ) -> RenderableType:
     """The whole in one line, then all runs, one row each; damage is told in full.
 
     Where there is no room for all of them, the runs at work have a row each, and the others are summed up by
     variant and condition.
+
+    Args:
+        standings: Of all runs.
+        pace: Of the runs.
+        at_once: Processes at a time.
+        most_rows: Lines that there is room for; by default any number.
+        width: Characters in a line, to which the names of variants are cut; by default they are whole.
     """
     damage = [Text(each.damage, style="red") for each in standings if each.damage]
     line = Text(summary_line(standings, pace, at_once))
     if most_rows is None or len(standings) <= most_rows:
-        return Group(line, _table_of_runs(standings, pace), *damage)
+        return Group(line, *_rows_of_runs(standings, pace, width), *damage)
     at_work = [each for each in standings if each.at_work][: max(most_rows // 2, 1)]
     room = max(most_rows - len(at_work) - len(damage) - 3, 1)
-    return Group(line, _table_of_runs(at_work, pace), Text(), *_sums(standings, room), *damage)
+    return Group(line, *_rows_of_runs(at_work, pace, width), Text(), *_sums(standings, room, width), *damage)
 
 
-def _table_of_runs(standings: Sequence[Standing], pace: Pace) -> Table:
+def _rows_of_runs(standings: Sequence[Standing], pace: Pace, width: int | None) -> list[Text]:
     """One row for each run."""
-    table = _table("run", "state", "generation", "best", "tested", "left", left=2)
+    headings, cells = ["run", "state", "generation", "best"], [_state, _generation, _best]
+    if any(each.to_test for each in standings):
+        headings, cells = [*headings, "tested"], [*cells, _tested]
+    rows = []
     for each in standings:
-        left = pace.left(each) if each.at_work else float("nan")
-        state = Text(each.state, style=STYLES[each.state])
-        table.add_row(each.name, state, _generation(each), _best(each), _tested(each), duration(left))
-    return table
+        left = duration(pace.left(each) if each.at_work else float("nan"))
+        texts = (*(cell(each) for cell in cells), left)
+        rows.append(Row(each.variant, each.short_name, texts, STYLES[each.state]))
+    return _aligned([*headings, "left"], rows, width)
 
 
-def _sums(standings: Sequence[Standing], most_rows: int) -> list[RenderableType]:
+def _sums(standings: Sequence[Standing], most_rows: int, width: int | None) -> list[Text]:
     """One row for each variant and condition, those at work first, then those that wait."""
-    groups: dict[str, list[Standing]] = {}
+    groups: dict[tuple[str, str], list[Standing]] = {}
     for each in standings:
-        groups.setdefault(each.name.rpartition(", ")[0], []).append(each)
-    order = sorted(groups, key=lambda name: _rest(groups[name]))
-    table = _table("all runs of", "done", "at work", "waiting", "best", "median best", left=1)
-    for name in order[:most_rows]:
-        runs = groups[name]
-        done, at_work = sum(each.done for each in runs), sum(each.at_work for each in runs)
-        waiting = sum(each.state == "waiting" for each in runs)
+        groups.setdefault((each.variant, str(each.config.condition)), []).append(each)
+    rows = []
+    for variant, condition in sorted(groups, key=lambda group: _rest(groups[group]))[:most_rows]:
+        runs = groups[variant, condition]
         best = [each.best for each in runs if not math.isnan(each.best)]
-        middle = f"{median(best):.3f}" if best else "-"
-        highest = f"{max(best):.3f}" if best else "-"
-        table.add_row(name, f"{done} of {len(runs)}", str(at_work), str(waiting), highest, middle)
-    hidden = len(order) - most_rows
-    return [table, Text(f"and {hidden} more", style="dim")] if hidden > 0 else [table]
+        texts = (
+            f"{sum(each.done for each in runs)} of {len(runs)}",
+            str(sum(each.at_work for each in runs)),
+            str(sum(each.state == "waiting" for each in runs)),
+            f"{max(best):.3f}" if best else "-",
+            f"{median(best):.3f}" if best else "-",
+        )
+        rows.append(Row(variant, condition, texts))
+    lines = _aligned(["all runs of", "done", "at work", "waiting", "best", "median best"], rows, width)
+    hidden = len(groups) - most_rows
+    return [*lines, Text(f"and {hidden} more", style="dim")] if hidden > 0 else lines
 
 
 def _rest(runs: Sequence[Standing]) -> int:
@@ -77,12 +105,28 @@ def _rest(runs: Sequence[Standing]) -> int:
     return 0 if any(each.at_work for each in runs) else 2 if all(each.done for each in runs) else 1
 
 
-def _table(*headings: str, left: int) -> Table:
-    """A table without lines, its first columns to the left."""
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for i, heading in enumerate(headings):
-        table.add_column(heading, no_wrap=i > 0, justify="left" if i < left else "right")
-    return table
+def _aligned(headings: Sequence[str], rows: Sequence[Row], width: int | None) -> list[Text]:
+    """Headings and rows as lines, names to the left; where a line is too narrow, its end is cut off."""
+    columns = [
+        max(map(len, column)) for column in zip(headings[1:], *(row.cells for row in rows), strict=True)
+    ]
+    room = sys.maxsize if width is None else width - sum(columns) - len(GAP) * len(columns)
+    rests = max((len(row.rest) for row in rows), default=0)
+    variants = told_apart([row.variant for row in rows], room - rests - len(", "))
+    names = [f"{variants[row.variant]}, {row.rest}" if row.variant else row.rest for row in rows]
+    first = max(map(len, [headings[0], *names]))
+
+    def line(name: str, cells: Sequence[str], style: str) -> Text:
+        # The first cell is a word, the others are numbers.
+        padded = [cells[0].ljust(columns[0])] + [
+            cell.rjust(size) for cell, size in zip(cells[1:], columns[1:], strict=True)
+        ]
+        parts = [name.ljust(first), GAP, (padded[0], style), GAP, GAP.join(padded[1:])]
+        return Text.assemble(*parts, no_wrap=True, overflow="crop" if width else "ignore")
+
+    heading = line(headings[0], headings[1:], "")
+    heading.stylize("bold")
+    return [heading, *(line(name, row.cells, row.style) for name, row in zip(names, rows, strict=True))]
 
 
 def summary_line(standings: Sequence[Standing], pace: Pace, at_once: int) -> str:
@@ -127,35 +171,25 @@ def shown_table(
         at_once: Processes at a time, for what is left.
     """
     if not console.is_terminal:
-        yield _at_intervals(
-            PLAIN_INTERVAL,
-            lambda: console.print("\n".join(plain_lines(*read(), at_once)), highlight=False, soft_wrap=True),
-        )
+
+        def print_lines() -> None:
+            console.print("\n".join(plain_lines(*read(), at_once)), highlight=False, soft_wrap=True)
+
+        yield at_intervals(PLAIN_INTERVAL, print_lines, largest_share=LARGEST_SHARE)
         return
     # Redrawn by our calls only, without a thread of its own.
     with Live(console=console, auto_refresh=False) as live:
 
         def redraw() -> None:
             most_rows = max(console.height - 4, 1)
-            live.update(run_table(*read(), at_once, most_rows), refresh=True)
+            live.update(run_table(*read(), at_once, most_rows, console.width), refresh=True)
 
-        yield _at_intervals(LIVE_INTERVAL, redraw)
+        yield at_intervals(LIVE_INTERVAL, redraw, largest_share=LARGEST_SHARE)
         redraw()
 
 
-def _at_intervals(seconds: float, show: Callable[[], None]) -> Callable[[], None]:
-    """Call `show` at most every so many seconds, and less often if it takes long."""
-    due_at = float("-inf")
-
-    def maybe_show() -> None:
-        nonlocal due_at
-        began = time.monotonic()
-        if began >= due_at:
-            show()
-            ended = time.monotonic()
-            due_at = ended + max(seconds, (ended - began) / LARGEST_SHARE)
-
-    return maybe_show
+def _state(each: Standing) -> str:
+    return each.state
 
 
 def _generation(each: Standing) -> str:

@@ -14,21 +14,17 @@ from functools import cached_property
 from pathlib import Path
 from typing import Final
 
-from arm2d import Readings
+from evolution.child import reference
+from evolution.experiments.stages import evolve_run, test_run
 from evolution.experiments.standing import Pace, Standing, pace_of, standing_of
-from evolution.experiments.variants import common_settings, variant_name
+from evolution.experiments.variants import Variant, common_settings
 from evolution.experiments.workers import Job
 from evolution.runs.folder import CONFIG, RunFolder, refuse_other
-from evolution.runs.lock import RunInUseError, locked
 from evolution.search.config import RunConfig
-from evolution.search.settings import Settings
 
 LOGS: Final = "logs"
 EVOLVING: Final = "evolving"
 TESTING: Final = "testing"
-
-# What the runs of a variant have in common.
-World = tuple[Readings, Settings]
 
 
 @dataclass(frozen=True)
@@ -45,33 +41,33 @@ class Plan:
     folder: Path
     configs: tuple[RunConfig, ...]
     post_evaluate: bool = True
-    names: Mapping[World, str] = field(default_factory=dict)
+    names: Mapping[Variant, str] = field(default_factory=dict)
 
     @cached_property
-    def variants(self) -> dict[World, str]:
+    def variants(self) -> dict[Variant, str]:
         """The name of every variant, in the order of the runs."""
-        worlds = list(dict.fromkeys((each.readings, each.settings) for each in self.configs))
-        if not worlds:
+        variants = list(dict.fromkeys(Variant.of(config) for config in self.configs))
+        if not variants:
             return {}
-        common = common_settings(settings for _, settings in worlds)
-        return {world: self.names.get(world) or variant_name(*world, common) for world in worlds}
+        common = common_settings(variants)
+        return {variant: self.names.get(variant) or variant.name(common) for variant in variants}
 
-    def variant(self, config: RunConfig) -> str:
+    def variant_folder(self, config: RunConfig) -> str:
         """The folder of a run's variant; nothing if there is only one."""
-        return self.variants[config.readings, config.settings] if len(self.variants) > 1 else ""
+        return self.variants[Variant.of(config)] if len(self.variants) > 1 else ""
 
     def path(self, config: RunConfig) -> Path:
         """The folder of a run."""
-        return self.folder / self.variant(config) / config.condition / f"seed-{config.seed:04d}"
+        return self.folder / self.variant_folder(config) / config.condition / f"seed-{config.seed:04d}"
 
     def run_name(self, config: RunConfig) -> str:
         """A run's name for people: variant, if there are several, condition and seed."""
-        return Standing(config, variant=self.variant(config)).name
+        return Standing(config, variant=self.variant_folder(config)).name
 
     def standing(self, config: RunConfig) -> Standing:
         """How far a run has come."""
         return standing_of(
-            self.path(config), config, variant=self.variant(config), to_be_tested=self.post_evaluate
+            self.path(config), config, variant=self.variant_folder(config), to_be_tested=self.post_evaluate
         )
 
     def standings(self) -> list[Standing]:
@@ -101,8 +97,9 @@ class Plan:
         config = standing.config
         path = self.path(config)
         log = self.folder / LOGS / f"{'-'.join(path.relative_to(self.folder).parts)}.log"
-        evolve = Job(standing.name, EVOLVING, evolve_arguments(config, path), path, log)
-        test = Job(standing.name, TESTING, ("postevaluate", str(path)), path, log)
+        run = {"folder": str(path), "config": config.to_mapping()}
+        evolve = Job(standing.name, EVOLVING, reference(evolve_run), run, path, log)
+        test = Job(standing.name, TESTING, reference(test_run), {"folder": str(path)}, path, log)
         stages = [evolve, test] if self.post_evaluate else [evolve]
         return stages[1:] if standing.evolved else stages
 
@@ -118,30 +115,3 @@ class Plan:
                 f"{self.folder} holds runs of {here}, such as {found.parent}, not of {asked}; "
                 "choose another output folder"
             )
-
-
-def evolve_arguments(config: RunConfig, path: Path) -> tuple[str, ...]:
-    """The command that starts exactly this run, or goes on with it, without `wordarm`."""
-    values = config.to_mapping()
-    arguments = ["evolve", f"--condition={config.condition}", f"--seed={config.seed}", f"--output={path}"]
-    for name, value in values["settings"].items():
-        arguments.append(f"--{_flag(name)}={value}")
-    for name, value in values["readings"].items():
-        flag = f"--readings.{_flag(name)}"
-        arguments += [flag, *map(repr, value)] if isinstance(value, list) else [f"{flag}={value}"]
-    return tuple(arguments)
-
-
-def in_use(path: Path) -> bool:
-    """Whether another process works on a run, such as one left over when its parent was killed."""
-    if not (path / CONFIG).exists():
-        return False
-    try:
-        with locked(path):
-            return False
-    except RunInUseError:
-        return True
-
-
-def _flag(name: str) -> str:
-    return name.replace("_", "-")

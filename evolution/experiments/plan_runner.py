@@ -2,29 +2,47 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
+from typing import Final
 
 from rich.console import Console
 
-from evolution.experiments.jobs import Failure, Start, Watcher, run_jobs
-from evolution.experiments.live_table import shown_table
-from evolution.experiments.plan import LOGS, Plan, in_use
+from evolution.experiments.jobs import Failure, Overseer, Start, run_jobs
+from evolution.experiments.live_table import duration, shown_table
+from evolution.experiments.plan import LOGS, Plan
 from evolution.experiments.plan_file import write_plan
 from evolution.experiments.stage_times import note_time
-from evolution.experiments.standing import Pace, Standing, pace_of
+from evolution.experiments.standing import (
+    TESTS_PER_EVOLUTION,
+    Pace,
+    Standing,
+    pace_of,
+    size_of,
+    time_left,
+)
+from evolution.experiments.variants import Variant, told_apart
 from evolution.experiments.warm_workers import WarmStart
 from evolution.experiments.workers import Ended, Job
-from evolution.runs.folder import RunFolder
+from evolution.runs.folder import GENERATIONS_PER_PART, RunFolder
 from evolution.runs.interrupt import StopRequest
+from evolution.runs.lock import in_use
 from evolution.search.config import RunConfig
+from evolution.search.population import first_population, next_population
+from evolution.search.scoring import score_population
+
+TRIED: Final = 5  # generations
+# An evolved population takes that many times as long as a random one (python -m benchmarks.kernel).
+EVOLVED: Final = 1.5
 
 
 def run_plan(
-    plan: Plan, at_once: int, watcher: Watcher | None = None, start: Start | None = None
+    plan: Plan, at_once: int, overseer: Overseer | None = None, start: Start | None = None
 ) -> tuple[Failure, ...]:
     """Evolve and test all runs as far as that is not done; the jobs that were given up.
 
@@ -33,18 +51,18 @@ def run_plan(
     Args:
         plan: The runs.
         at_once: Processes at a time.
-        watcher: Is told of what happens, and may stop it.
+        overseer: Is told of what happens, and may stop it.
         start: How workers are started; by default forked by a process that has loaded everything.
 
     Raises:
         ValueError: If a folder holds another run.
         OSError: If nothing can be written.
     """
-    watcher = watcher or Watcher()
+    overseer = overseer or Overseer()
     plan.check()
     if not (chains := plan.chains()):
         return ()
-    free = replace(watcher, may_start=lambda job: watcher.may_start(job) and not in_use(job.folder))
+    free = replace(overseer, may_start=lambda job: overseer.may_start(job) and not in_use(job.folder))
     if start is not None:
         return run_jobs(chains, at_once, free, start)
     with WarmStart(plan.folder / LOGS / "workers.log") as warm:
@@ -57,6 +75,7 @@ def run_plan_shown(
     stop: StopRequest | None = None,
     console: Console | None = None,
     elsewhere: Start | None = None,
+    on_end: Callable[[Ended], None] = lambda ended: None,
 ) -> tuple[Failure, ...]:
     """The same under the live table, plan and times being noted in the folder.
 
@@ -66,6 +85,7 @@ def run_plan_shown(
         stop: An open one, if the caller has more to do when stopped; else Ctrl-C stops this alone.
         console: Where the table is shown.
         elsewhere: How workers are started on other machines, which then get all jobs, to queue them.
+        on_end: Called for every process that ended, too.
 
     Returns:
         The jobs that were given up.
@@ -88,14 +108,15 @@ def run_plan_shown(
         def end(ended: Ended) -> None:
             note_time(plan.folder, ended)
             watch.forget(ended.job.name)
+            on_end(ended)
 
-        watcher = Watcher(
+        overseer = Overseer(
             on_tick=tick,
             on_end=end,
             on_note=lambda note: console.print(note, highlight=False),
             wants_stop=lambda: asked.requested,
         )
-        failures = run_plan(plan, sys.maxsize if elsewhere else at_once, watcher, elsewhere)
+        failures = run_plan(plan, sys.maxsize if elsewhere else at_once, overseer, elsewhere)
         watch.at_work = set()
     return failures
 
@@ -149,3 +170,58 @@ class PlanWatch:
 def _progress(standing: Standing) -> tuple[bool, int, int]:
     """Runs at work tell today's pace best, then those that have come far."""
     return standing.at_work, standing.generations, standing.tested
+
+
+def expected_pace(plan: Plan) -> tuple[Pace, str]:
+    """What a generation and a test will take, and in words how that is known."""
+    pace = plan.pace()
+    if not math.isnan(pace.generation):
+        return pace, "by the pace of the runs so far"
+    generation = EVOLVED * _trial_generation(plan.configs[0])
+    test = TESTS_PER_EVOLUTION * GENERATIONS_PER_PART * generation / 2
+    return Pace(generation, test), f"by {TRIED} random generations tried out, times {EVOLVED:g}"
+
+
+def _trial_generation(config: RunConfig) -> float:
+    """CPU time [s] of a generation of the paper's size, from a run's first ones, which are not kept."""
+    population = first_population(config)
+    score_population(population, config)  # compiles, or loads what was compiled
+    began = time.process_time()
+    for _ in range(TRIED):
+        population = next_population(population, score_population(population, config), config)
+    return (time.process_time() - began) / TRIED / size_of(config)
+
+
+def plan_lines(plan: Plan, at_once: int, width: int | None = None) -> list[str]:
+    """What a plan holds, a line for each variant, and how long it will take.
+
+    Args:
+        plan: The runs.
+        at_once: Processes at a time.
+        width: Characters in a line; by default names are not cut.
+    """
+    standings = plan.standings()
+    pace, how = expected_pace(plan)
+    groups: dict[Variant, list[Standing]] = {}
+    for each in standings:
+        groups.setdefault(Variant.of(each.config), []).append(each)
+    texts = {variant: _group_text(runs, pace) for variant, runs in groups.items()}
+    room = width - 2 - max(map(len, texts.values())) if width else sys.maxsize
+    names = told_apart([plan.variants[each] for each in groups], room)
+    longest = max(map(len, names.values()))
+    lines = [f"{names[plan.variants[variant]]:{longest}}  {text}" for variant, text in texts.items()]
+    return [*lines, f"about {duration(time_left(standings, pace, at_once))} in {at_once} processes, {how}"]
+
+
+def _group_text(runs: Sequence[Standing], pace: Pace) -> str:
+    """The runs of a variant: how many, how long, and what is done of them."""
+    left = [each for each in runs if not each.done and not each.damage]
+    damaged = sum(bool(each.damage) for each in runs)
+    parts = [f"{len(runs)} x {runs[0].config.settings.generations} generations"]
+    if done := len(runs) - len(left) - damaged:
+        parts.append(f"{done} done")
+    if damaged:
+        parts.append(f"{damaged} damaged")
+    if left:
+        parts.append(f"about {duration(sum(map(pace.left, left)))} in one process")
+    return ", ".join(parts)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import os
 import resource
 import time
 from collections.abc import Iterable, Iterator
@@ -11,9 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from evolution.experiments.workers import Ended, Job
+from arm2d.files import NoFileError, handle_to_append, read_file
+from evolution.experiments.workers import Ended
 
 FILE: Final = "times.csv"
+LARGEST: Final = 64 * 2**20  # [bytes], a million processes
 COLUMNS: Final = ("stage", "run", "exit_code", "wall_s", "cpu_s", "peak_mb")
 
 
@@ -42,14 +45,19 @@ def note_time(folder: Path, ended: Ended) -> None:
     Raises:
         OSError: If it cannot be written.
     """
+    job = ended.job
+    _note(folder, job.stage, job.name, ended.exit_code, ended.wall, ended.cpu, ended.peak)
+
+
+def _note(folder: Path, stage: str, run: str, exit_code: int, wall: float, cpu: float, peak: float) -> None:
+    """Add a line, below the heading."""
     path = folder / FILE
     new = not path.exists()
-    with path.open("a", encoding="utf-8", newline="") as file:
+    with os.fdopen(handle_to_append(path), "a", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         if new:
             writer.writerow(COLUMNS)
-        numbers = (f"{ended.wall:.2f}", f"{ended.cpu:.2f}", f"{ended.peak:.0f}")
-        writer.writerow((ended.job.stage, ended.job.name, ended.exit_code, *numbers))
+        writer.writerow((stage, run, exit_code, f"{wall:.2f}", f"{cpu:.2f}", f"{peak:.0f}"))
 
 
 @contextmanager
@@ -62,8 +70,7 @@ def timed(folder: Path, stage: str) -> Iterator[None]:
     wall, cpu = time.monotonic(), time.process_time()
     yield
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    job = Job("all runs", stage, (), folder, folder / FILE)
-    note_time(folder, Ended(job, 0, time.monotonic() - wall, time.process_time() - cpu, peak))
+    _note(folder, stage, "all runs", 0, time.monotonic() - wall, time.process_time() - cpu, peak)
 
 
 def stage_times(folder: Path) -> list[StageTime]:
@@ -87,8 +94,9 @@ def time_lines(times: Iterable[StageTime]) -> list[str]:
 def _rows(path: Path) -> Iterable[tuple[str, float, float, float]]:
     """(stage, wall, cpu, peak) of every sound line."""
     try:
-        lines = list(csv.reader(path.read_text(encoding="utf-8", errors="replace").splitlines()))
-    except (OSError, csv.Error):
+        text = read_file(path, LARGEST, links=False).decode("utf-8", "replace")
+        lines = list(csv.reader(text.splitlines()))
+    except (OSError, NoFileError, csv.Error):
         return
     for line in lines:
         try:

@@ -6,24 +6,26 @@ Pace is told by the times at which finished parts were written, so it can be rea
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
 from statistics import median
 from typing import Final
 
-from evolution.agents import postevaluation, transition_test
-from evolution.agents.postevaluation import late_spans
+from evolution.agents.parts import late_spans
+from evolution.agents.postevaluation import POST_EVALUATION
 from evolution.agents.solving import FILE as SOLVED
-from evolution.experiments.experiment import state_of
+from evolution.agents.transitions import TRANSITION_TEST
 from evolution.runs.folder import CHAMPIONS, CONFIG, GENERATIONS_PER_PART, LOCK, RunFolder
 from evolution.runs.lease import held_elsewhere
+from evolution.runs.lock import Word, last_word
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
 LOCK_TABLE: Final = Path("/proc/locks")
+TESTS: Final = (POST_EVALUATION, TRANSITION_TEST)
 # Until parts have been tested: the time of 100 generations' tests, as a multiple of that of their
 # evolution, measured with default readings.
 TESTS_PER_EVOLUTION: Final = 2.5
@@ -35,10 +37,11 @@ class Standing:
 
     Attributes:
         config: The run.
-        generations: In finished parts.
+        generations: Scored: those in finished parts, or as many as the process at work tells.
         best: Best fitness in the last of them; NaN if there is none.
         tested: Parts of both tests that are there, of `to_test`.
         to_test: Twice the parts of the late generations.
+        finished: Whether all generations are in finished parts.
         evolved: Whether evolution is over, champions included.
         done: Whether the tests are over too.
         at_work: Whether a process holds the run.
@@ -51,6 +54,7 @@ class Standing:
     best: float = float("nan")
     tested: int = 0
     to_test: int = 0
+    finished: bool = False
     evolved: bool = False
     done: bool = False
     at_work: bool = False
@@ -60,8 +64,12 @@ class Standing:
     @property
     def name(self) -> str:
         """Variant, condition and seed."""
-        prefix = f"{self.variant}, " if self.variant else ""
-        return f"{prefix}{self.config.condition}, seed {self.config.seed}"
+        return f"{self.variant}, {self.short_name}" if self.variant else self.short_name
+
+    @property
+    def short_name(self) -> str:
+        """Condition and seed."""
+        return f"{self.config.condition}, seed {self.config.seed}"
 
     @property
     def state(self) -> str:
@@ -96,46 +104,67 @@ def size_of(config: RunConfig) -> float:
     return trials / (paper.population * paper.trials_per_area)
 
 
-def standing_of(path: Path, config: RunConfig, *, variant: str = "", to_be_tested: bool = True) -> Standing:
+def standing_of(
+    path: Path, config: RunConfig, *, variant: str = "", to_be_tested: bool | None = True
+) -> Standing:
     """How far a run has come; one that was not started has come nowhere.
 
     Args:
         path: Its folder.
         config: The run.
         variant: Its variant, for people.
-        to_be_tested: Whether the paper's tests belong to it.
+        to_be_tested: Whether the paper's tests belong to it; None if they do once they were begun.
     """
     run = RunFolder(path, config)
-    late = late_spans(run) if to_be_tested else []
-    if not (path / CONFIG).exists():
-        return Standing(config, to_test=2 * len(late), variant=variant)
-    state = state_of(run)
-    tested = sum(
-        test.part_path(run, each).exists() for test in (postevaluation, transition_test) for each in late
+    try:
+        late = late_spans(run)
+        tested = sum(test.path(run, each).exists() for test in TESTS for each in late)
+        to_be_tested = bool(tested) if to_be_tested is None else to_be_tested
+        fresh = Standing(config, to_test=2 * len(late) if to_be_tested else 0, variant=variant)
+        if not (path / CONFIG).exists():
+            return fresh
+        return _standing_of_started(run, replace(fresh, tested=tested if to_be_tested else 0))
+    except OSError as error:
+        return Standing(config, variant=variant, damage=f"{path} cannot be read: {error.strerror}")
+
+
+def _standing_of_started(run: RunFolder, fresh: Standing) -> Standing:
+    """The same of a run that was begun."""
+    generations, best, damage, finished = _recorded(run)
+    held = is_held(run.path)
+    word = last_word(run.path) if held else Word()
+    if word.generations > generations and not damage:
+        generations, best = word.generations, word.best
+    evolved = finished and (run.path / CHAMPIONS).exists()
+    tested = fresh.tested == fresh.to_test and (
+        not fresh.to_test or (run.path / POST_EVALUATION.folder / SOLVED).exists()
     )
-    best, damage = float("nan"), state.damage
-    if state.generations:
-        span = run.spans[(state.generations - 1) // GENERATIONS_PER_PART]
-        try:
-            best = _best_of_part(run, span)
-        except DamagedFileError as error:
-            damage = str(error)
-    evolved = state.finished and (path / CHAMPIONS).exists()
-    return Standing(
-        config=config,
-        generations=state.generations,
+    return replace(
+        fresh,
+        generations=generations,
         best=best,
-        tested=tested,
-        to_test=2 * len(late),
+        finished=finished,
         evolved=evolved,
-        done=evolved
-        and (
-            not to_be_tested or (tested == 2 * len(late) and (path / postevaluation.FOLDER / SOLVED).exists())
-        ),
-        at_work=is_held(path),
+        done=evolved and tested,
+        at_work=held,
         damage=damage,
-        variant=variant,
     )
+
+
+def _recorded(run: RunFolder) -> tuple[int, float, str, bool]:
+    """What finished parts hold: generations, best fitness of the last, damage, and whether that is all."""
+    try:
+        spans = run.finished_spans()
+    except DamagedFileError as error:
+        return 0, float("nan"), str(error), False
+    if not spans:
+        return 0, float("nan"), "", False
+    best, damage = float("nan"), ""
+    try:
+        best = _best_of_part(run, spans[-1])
+    except DamagedFileError as error:
+        damage = str(error)
+    return spans[-1].stop, best, damage, len(spans) == len(run.spans)
 
 
 def is_held(path: Path) -> bool:
@@ -156,8 +185,8 @@ def pace_of(runs: Iterable[RunFolder]) -> Pace:
     for run in runs:
         size = size_of(run.config)
         generations += [each / size for each in _intervals([run.part_path(each) for each in run.spans])]
-        evaluations += _intervals([postevaluation.part_path(run, each) for each in late_spans(run)])
-        transitions += _intervals([transition_test.part_path(run, each) for each in late_spans(run)])
+        evaluations += _intervals([POST_EVALUATION.path(run, span) for span in late_spans(run)])
+        transitions += _intervals([TRANSITION_TEST.path(run, span) for span in late_spans(run)])
     part = median(generations) if generations else float("nan")
     default = TESTS_PER_EVOLUTION * part / 2
     tests = [median(each) if each else default for each in (evaluations, transitions)]

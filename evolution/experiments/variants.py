@@ -1,20 +1,46 @@
-"""The variants of an experiment: worlds and algorithms that are compared, and the names of their folders."""
+"""The variants of an experiment, what is compared in it, and the names of their folders."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from dataclasses import fields, replace
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields, replace
+from itertools import count, takewhile
 from typing import Any, Final
 
 from arm2d import Condition, Readings
+from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
 DEFAULT_NAME: Final = "default"
 LONGEST_NAME: Final = 200
+LEAST_WIDTH: Final = 8  # of a name that is cut
 # A condition's name would make a variant's folder look like an experiment of one variant.
 RESERVED: Final = {"logs", "results", "studies", *(str(each) for each in Condition)}
 PATTERN: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
+
+
+@dataclass(frozen=True)
+class Variant:
+    """What runs have in common that differ in condition and seed only.
+
+    Attributes:
+        readings: How the paper is understood.
+        settings: The genetic algorithm.
+    """
+
+    readings: Readings
+    settings: Settings
+
+    @classmethod
+    def of(cls, config: RunConfig) -> Variant:
+        """That of a run."""
+        return cls(config.readings, config.settings)
+
+    def name(self, common: Settings | None = None) -> str:
+        """As `variant_name`."""
+        return variant_name(self.readings, self.settings, common)
 
 
 def variant_name(readings: Readings, settings: Settings | None = None, common: Settings | None = None) -> str:
@@ -56,15 +82,47 @@ def check_name(name: Any) -> str:
     return name
 
 
-def common_settings(each: Iterable[Settings]) -> Settings:
+def common_settings(variants: Iterable[Variant]) -> Settings:
     """The paper's settings, but for the fields in which all the given ones agree: these are theirs."""
-    found = list(each)
+    found = [each.settings for each in variants]
     shared = {
         field.name: getattr(found[0], field.name)
         for field in fields(Settings)
         if len({getattr(settings, field.name) for settings in found}) == 1
     }
     return replace(Settings(), **shared) if shared else Settings()
+
+
+def told_apart(names: Sequence[str], width: int) -> dict[str, str]:
+    """Every name in at most so many characters; no two different ones look the same.
+
+    The middle is cut; where that makes two the same, the beginning that they share; else they are numbered.
+
+    Args:
+        names: To be shown together.
+        width: At most so many characters, but not fewer than `LEAST_WIDTH`.
+    """
+    width = max(width, LEAST_WIDTH)
+    tail = width // 2
+    short = {
+        name: name if len(name) <= width else f"{name[: width - tail - 1]}…{name[-tail:]}" for name in names
+    }
+    for alike in _same(short):
+        shared = takewhile(lambda letters: len(set(letters)) == 1, zip(*alike, strict=False))
+        start = max(len(list(shared)) - 1, 0)
+        short |= {name: f"…{name[start:]}"[:width] for name in alike}
+    numbers = count(1)
+    for alike in _same(short):
+        for name in alike:
+            mark = f"…{next(numbers)}"
+            short[name] = short[name][: width - len(mark)] + mark
+    return short
+
+
+def _same(short: dict[str, str]) -> list[list[str]]:
+    """The names that have become the same, group by group."""
+    times = Counter(short.values())
+    return [[name for name in short if short[name] == each] for each, n in times.items() if n > 1]
 
 
 def _differences(record: Any, base: Any) -> list[tuple[str, Any]]:

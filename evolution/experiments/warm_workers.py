@@ -8,7 +8,6 @@ import select
 import signal
 import socket
 import subprocess
-import sys
 import time
 from collections.abc import Iterable
 from contextlib import suppress
@@ -16,7 +15,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from evolution.experiments.fork_server import LARGEST_MESSAGE
+from arm2d.files import handle_to_append
+from evolution.child import calling, reference
+from evolution.experiments.fork_server import LARGEST_MESSAGE, fork_workers
 from evolution.experiments.workers import LOST, Ended, Job, Worker
 from evolution.runs.storage import make_folder
 
@@ -111,9 +112,9 @@ class _Server:
     def __init__(self, log: Path) -> None:
         make_folder(log.parent)
         self._socket, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        with theirs, log.open("ab") as output:
+        with theirs, os.fdopen(handle_to_append(log), "ab") as output:
             self._process = subprocess.Popen(  # noqa: S603 - our own program
-                [sys.executable, "-m", "evolution.experiments.fork_server", str(theirs.fileno())],
+                calling(reference(fork_workers), {"descriptor": theirs.fileno()}),
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=subprocess.STDOUT,
@@ -127,7 +128,7 @@ class _Server:
 
     def fork(self, job: Job) -> tuple[int, int]:
         """Number and pidfd of a worker; raises ConnectionError if the server is gone."""
-        message = {"arguments": job.arguments, "log": str(job.log)}
+        message = {"function": job.function, "arguments": job.arguments, "log": str(job.log)}
         try:
             self._socket.send(json.dumps(message).encode())
         except BrokenPipeError:

@@ -1,18 +1,19 @@
-"""A process of its own for a job, and what is learnt from it: `python -m evolution <command>`."""
+"""A job, the process of its own that does it, and what is learnt from that."""
 
 from __future__ import annotations
 
 import os
 import signal
 import subprocess
-import sys
 import time
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
+from arm2d.files import handle_to_append
 from evolution.answers import SENTENCE_PREFIX
+from evolution.child import calling
 from evolution.runs.storage import make_folder
 
 # The exit code of a process whose end nobody saw: its files tell how far it came.
@@ -21,19 +22,21 @@ LOST: Final = 255
 
 @dataclass(frozen=True)
 class Job:
-    """A command to be run as a process of its own, which goes on where it was stopped.
+    """A function to be called in a process of its own, which goes on where it was stopped.
 
     Attributes:
         name: Whose it is, for people.
         stage: What it does, for people.
-        arguments: What follows `python -m evolution`.
+        function: What is called, by its `evolution.child.reference`; it answers with an exit code.
+        arguments: By name, as plain values: they reach the process as JSON.
         folder: Where it writes; files that appear there are its progress.
         log: What it prints is added to this file.
     """
 
     name: str
     stage: str
-    arguments: tuple[str, ...]
+    function: str
+    arguments: Mapping[str, Any] = field(hash=False)
     folder: Path
     log: Path
 
@@ -81,17 +84,17 @@ class Worker:
         self.job = job
         self._told_to_stop = False
         make_folder(job.log.parent)
-        with job.log.open("ab") as log:
+        with os.fdopen(handle_to_append(job.log), "ab") as log:
             self._log_start = log.tell()
         self._began = time.monotonic()
         self._begin()
 
     def _begin(self) -> None:
         """Start the process."""
-        with self.job.log.open("ab") as log:
+        with os.fdopen(handle_to_append(self.job.log), "ab") as log:
             # A process group of its own: Ctrl-C reaches it through us, once, and in good order.
             self._process = subprocess.Popen(  # noqa: S603 - our own program
-                [sys.executable, "-m", "evolution", *self.job.arguments],
+                calling(self.job.function, self.job.arguments),
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,

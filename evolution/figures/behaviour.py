@@ -15,17 +15,17 @@ from numpy.typing import NDArray
 from arm2d import NON_EXPERIENCED, Instruction, ObjectWord, Readings
 from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, DT
 from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.agents.behaviour import NEVER, Behaviour
+from evolution.agents.behaviour import Behaviour
+from evolution.agents.firsts import NEVER
 from evolution.agents.lesions import LESIONS, LesionScores
-from evolution.figures.run import SUCCESS_MAP
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP, beside, head, ink_on
 
 FAILED: Final = "#A8A49B"
 DASHES: Final = (0, (4, 2.5))
 SHOWN_PER_AREA: Final = 10
 
 
-def trajectories_figure(behaviour: Behaviour, readings: Readings, origin: str) -> Figure:
+def trajectories_figure(behaviour: Behaviour, readings: Readings, origin: str = "") -> Figure:
     """A page with both joint angles over time, a panel for each instruction."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 9.4))
@@ -86,9 +86,8 @@ def _draw_lines(
             axes.plot(
                 DT * np.arange(angles.shape[1]), angles[trial], color=colour, ls=style, lw=0.9, alpha=0.8
             )
-            for row, marker, face in (
-                (behaviour.first_sight[trial], "o", "white"), (behaviour.first_touch[trial], "D", INK),
-            ):  # fmt: skip
+            events = ((behaviour.first_sight[trial], "o", "white"), (behaviour.first_touch[trial], "D", INK))
+            for row, marker, face in events:
                 if row != NEVER:
                     axes.plot(
                         DT * row, angles[trial, row], marker, ms=2.8, mfc=face, mec=INK, mew=0.5, zorder=4
@@ -106,7 +105,7 @@ def trajectory_handles() -> list[Line2D]:
     ]
 
 
-def lesions_figure(scores: LesionScores, origin: str) -> Figure:
+def lesions_figure(scores: LesionScores, origin: str = "") -> Figure:
     """A page with success without and with each lesion, a row for each instruction; a mean over agents."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 5.3))
@@ -123,51 +122,29 @@ def draw_lesions(axes: Axes, scores: LesionScores) -> None:
     """Instructions by lesions: success in per cent, a mean over agents."""
     table = np.vstack([scores.intact.mean(axis=0), scores.lesioned.mean(axis=0)]).T  # [9, 1 + lesions]
     # Room between the intact agent, the lesions it should not mind, and those it should.
-    places = np.array([0.0, *(1.3 + i + 0.3 * (not each.harmless) for i, each in enumerate(LESIONS))])
+    places = np.array([0.0, *(1.3 + i + 0.3 * (not lesion.harmless) for i, lesion in enumerate(LESIONS))])
     for row, instruction in enumerate(scores.condition.instructions):
         for place, share in zip(places, table[row], strict=True):
             axes.add_patch(
                 Rectangle((place + 0.02, row + 0.04), 0.96, 0.92, fc=SUCCESS_MAP(share), ec="none")
             )
-            axes.text(
-                place + 0.5, row + 0.52, f"{100 * share:.0f}", ha="center", va="center", fontsize=9,
-                color="white" if share > 0.55 else INK,
-            )  # fmt: skip
+            number = axes.text(place + 0.5, row + 0.52, f"{100 * share:.0f}", fontsize=9)
+            number.set(ha="center", va="center", color=ink_on(share))
         if instruction in NON_EXPERIENCED:
-            frame = (places[-1] + 1.08, 1.04)
-            axes.add_patch(
-                Rectangle(
-                    (-0.04, row - 0.02),
-                    *frame,
-                    fill=False,
-                    ec=FAINT,
-                    ls=DASHES,
-                    lw=1.2,
-                    zorder=3,
-                    clip_on=False,
-                )
-            )
+            frame = Rectangle((-0.04, row - 0.02), places[-1] + 1.08, 1.04, fill=False, ec=FAINT)
+            frame.set(linestyle=DASHES, linewidth=1.2, zorder=3, clip_on=False)
+            axes.add_patch(frame)
     axes.set(xlim=(0, places[-1] + 1), ylim=(9, 0))
-    axes.set_yticks(np.arange(9) + 0.5, [str(each) for each in scores.condition.instructions])
+    axes.set_yticks(np.arange(9) + 0.5, [str(word) for word in scores.condition.instructions])
     for label, instruction in zip(axes.get_yticklabels(), scores.condition.instructions, strict=True):
         label.set(color=OBJECT_COLOURS[instruction.object], fontweight="bold")
-    names = ["intact", *(f"{each.word} word\n{each.manner}\n{each.time}" for each in LESIONS)]
+    names = ["intact", *(f"{lesion.word} word\n{lesion.manner}\n{lesion.time}" for lesion in LESIONS)]
     axes.set_xticks(places + 0.5, names, fontsize=8)
     axes.tick_params(length=0, pad=6, top=False, labeltop=True, labelbottom=False)
     axes.spines[:].set_visible(False)
     for start, text in ((1, "the paper's agent would not mind"), (5, "the paper's agent would fail")):
         middle = (places[start] + places[start + 3] + 1) / 2
-        axes.annotate(
-            text, (middle, 0), xytext=(0, 48), textcoords="offset points", ha="center", fontsize=9,
-            fontweight="bold", annotation_clip=False,
-        )  # fmt: skip
-
-
-def head(figure: Figure, title: str, origin: str) -> None:
-    """Title and provenance at the top of a page, at the same distance from its edge on every page."""
-    height = figure.get_size_inches()[1]
-    figure.text(0.015, 1 - 0.32 / height, title, fontsize=15, fontweight="bold")
-    figure.text(0.015, 1 - 0.54 / height, origin, fontsize=9, color=FAINT)
+        beside(axes, text, (middle, 0), (0, 48), ha="center", fontsize=9, fontweight="bold")
 
 
 def _frame(axes: Axes, instruction: Instruction) -> None:

@@ -15,12 +15,12 @@ from matplotlib.patches import Patch
 from arm2d import Condition
 from arm2d.drawing import INK
 from evolution.agents.classes import PARTS
-from evolution.agents.events import WINDOWS
 from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass
+from evolution.agents.variance import WINDOWS
 from evolution.figures.generalisers import CLASS_COLOURS
 from evolution.figures.neurons import SHARE_COLOURS, SHARE_LABELS
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, STYLE
 from evolution.results.classes import ClassBehaviour
 from evolution.results.wording import TITLES
 
@@ -59,21 +59,21 @@ def draw_shares(axes: Axes, classes: Sequence[ClassBehaviour]) -> None:
     for group, window in enumerate(SHOWN_WINDOWS):
         start = group * (len(classes) + 1.1)
         axes.text(0, start - 0.62, list(WINDOWS)[window], fontsize=8.5, fontweight="bold", va="center")
-        for row, each in enumerate(classes):
+        for row, behaviour in enumerate(classes):
             places.append(start + row)
-            labels.append(f"{SHORT[each.kind]}\n{_count(each)}")
-            _draw_bar(axes, places[-1], each, window)
+            labels.append(f"{SHORT[behaviour.kind]}\n{_count(behaviour)}")
+            _draw_bar(axes, places[-1], behaviour, window)
     axes.set_yticks(places, labels, fontsize=8)
     axes.set(xlim=(0, 100), ylim=(places[-1] + 0.6, -1.0), xlabel="share of the variance [%]")
     axes.tick_params(axis="y", length=0)
     axes.spines[["top", "right", "left"]].set_visible(False)
 
 
-def _draw_bar(axes: Axes, place: float, each: ClassBehaviour, window: int) -> None:
-    values = each.windows[:, window] if len(each.seeds) else np.empty((0, len(PARTS)))
+def _draw_bar(axes: Axes, place: float, behaviour: ClassBehaviour, window: int) -> None:
+    values = behaviour.windows[:, window] if len(behaviour.seeds) else np.empty((0, len(PARTS)))
     values = values[np.isfinite(values).all(axis=1)]
     if not len(values):
-        why = "no such agent" if not len(each.seeds) else "too few trials come so far"
+        why = "no such agent" if not len(behaviour.seeds) else "too few trials come so far"
         axes.text(1, place, why, va="center", fontsize=8, color=FAINT)
         return
     left = 0.0
@@ -89,19 +89,19 @@ def _draw_bar(axes: Axes, place: float, each: ClassBehaviour, window: int) -> No
 
 def draw_success(axes: Axes, classes: Sequence[ClassBehaviour]) -> None:
     """Success of the experienced instructions, intact and with each lesion: runs pale, their mean full."""
-    harmless = sum(each.harmless for each in LESIONS)
-    places = np.array([0.0, *(1.6 + i + 1.0 * (not each.harmless) for i, each in enumerate(LESIONS))])
-    for offset, each in zip((-0.24, 0.0, 0.24), classes, strict=True):
-        if not len(each.seeds):
+    harmless = sum(lesion.harmless for lesion in LESIONS)
+    places = np.array([0.0, *(1.6 + i + 1.0 * (not lesion.harmless) for i, lesion in enumerate(LESIONS))])
+    for offset, behaviour in zip((-0.24, 0.0, 0.24), classes, strict=True):
+        if not len(behaviour.seeds):
             continue
-        colour, success = CLASS_COLOURS[each.kind], 100 * each.success(known=True)
+        colour, success = CLASS_COLOURS[behaviour.kind], 100 * behaviour.success(known=True)
         axes.plot(
             success.T, np.tile(places + offset, (len(success), 1)).T, "o", ms=3, alpha=0.35, color=colour
         )
         axes.plot(success.mean(axis=0), places + offset, "o", ms=6.5, color=colour, mec="white", mew=0.7)
     for first, text in ((1, "the paper's agent would not mind"), (1 + harmless, "it would fail")):
         axes.text(0, places[first] - 0.72, text, fontsize=8.5, fontweight="bold", va="center")
-    names = ["intact", *(f"{each.word} word {each.manner} {each.time}" for each in LESIONS)]
+    names = ["intact", *(f"{lesion.word} word {lesion.manner} {lesion.time}" for lesion in LESIONS)]
     axes.set_yticks(places, names, fontsize=8)
     axes.set(xlim=(-2, 102), ylim=(places[-1] + 0.6, -0.7), xlabel="success, experienced instructions [%]")
     axes.grid(axis="y", color=FAINT, alpha=0.25, lw=0.5)
@@ -109,9 +109,9 @@ def draw_success(axes: Axes, classes: Sequence[ClassBehaviour]) -> None:
     axes.spines[["top", "right", "left"]].set_visible(False)
 
 
-def _count(each: ClassBehaviour) -> str:
+def _count(behaviour: ClassBehaviour) -> str:
     """Agents and runs behind a bar."""
-    agents, runs = int(each.agents.sum()), len(each.seeds)
+    agents, runs = int(behaviour.agents.sum()), len(behaviour.seeds)
     if not runs:
         return "none"
     return f"{agents} agent{'s' if agents != 1 else ''}, {runs} run{'s' if runs != 1 else ''}"

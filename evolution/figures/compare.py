@@ -15,7 +15,8 @@ from arm2d import Condition
 from arm2d.drawing import INK
 from evolution.agents.subtasks import SUBTASKS
 from evolution.figures.classes import SHORT
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, STYLE
+from evolution.results import published
 from evolution.results.key_numbers import (
     AT_LIMIT,
     PLATEAU,
@@ -26,9 +27,9 @@ from evolution.results.key_numbers import (
     pass_name,
     top_name,
 )
-from evolution.results.published import LARGEST_FITNESS
 from evolution.results.records import Results
 from evolution.results.wording import TITLES
+from evolution.search.settings import LARGEST_FITNESS
 
 PAPER: Final = "#8A857A"
 OURS: Final = "#12545F"
@@ -98,11 +99,11 @@ def draw_numbers(
                 continue
             colour, scale = _colour(name, by_number), 100 / max(number.of, 1) if runs else 100
             if number.published is not None:
-                theirs = number.published * (10 if runs else 100)  # the paper has ten runs
+                theirs = 100 * number.published / (published.RUNS if runs else 1)
                 axes.plot([theirs] * 2, [row - 0.38, row + 0.38], color=PAPER, lw=2.6, solid_capstyle="butt")
             if len(number.runs):
-                each = 100 * number.runs
-                axes.plot(each, np.full(len(each), row + offset), "o", ms=3, alpha=0.3, color=colour)
+                shares = 100 * number.runs
+                axes.plot(shares, np.full(len(shares), row + offset), "o", ms=3, alpha=0.3, color=colour)
             if np.isfinite(number.ours):
                 axes.plot(scale * number.ours, row + offset, "o", ms=6.5, color=colour, mec="white", mew=0.7)
     axes.set_yticks(range(len(shown)), list(shown.values()), fontsize=8.5)
@@ -114,8 +115,8 @@ def draw_numbers(
 
 def _lowest(conditions: Mapping[Condition, Mapping[str, list[KeyNumber]]]) -> float:
     """The lowest plateau of all, so that all panels share one scale."""
-    numbers = [each for by_name in conditions.values() for own in by_name.values() for each in own]
-    lowest = [float(each.runs.min()) for each in numbers if each.name == PLATEAU and len(each.runs)]
+    numbers = [number for by_name in conditions.values() for own in by_name.values() for number in own]
+    lowest = [float(number.runs.min()) for number in numbers if number.name == PLATEAU and len(number.runs)]
     return min([*lowest, LARGEST_FITNESS - 0.1])
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import matplotlib as mpl
 import numpy as np
@@ -23,9 +23,8 @@ from arm2d import Instruction, ObjectWord, Readings, Trials, record_trial
 from arm2d import constants as c
 from arm2d.drawing import ARM, CAMERA, INK, OBJECT_COLOURS, Scene, arm_points, state_at
 from arm2d.trials import TrialRecord
-from evolution.figures.page import svg_bytes
-from evolution.figures.style import STYLE
-from evolution.runs.sources import find_source
+from evolution.figures.page import STYLE, svg_bytes
+from evolution.runs.sources import find_agent
 from evolution.runs.storage import write_atomically
 
 SIZE: Final = (11.0, 4.4)  # [inches]
@@ -84,7 +83,7 @@ def example(genotype: NDArray[np.float64], readings: Readings) -> TrialRecord:
     bearings = np.radians(readings.sector_centres)
     discs = distance * np.stack([np.cos(bearings), np.sin(bearings)], axis=1)  # [3, 2]
     instruction = Instruction.parse(INSTRUCTION)
-    alpha = np.mean(readings.start_intervals[0])
+    alpha = sum(readings.start_intervals[0]) / 2
     trials = Trials(
         np.array([instruction.action]), np.array([instruction.object]), np.array([alpha]), discs[None]
     )
@@ -168,7 +167,7 @@ def _draw_words(axes: Axes, instruction: Instruction) -> None:
                     (1, y), 16, 5.0, boxstyle="round,pad=0.4", fc=colour, ec=colour if lit else LINE, lw=1
                 )
             )
-            style = {"color": "white", "fontweight": "bold"} if lit else {"color": QUIET}
+            style: dict[str, Any] = {"color": "white", "fontweight": "bold"} if lit else {"color": QUIET}
             axes.text(9, y + 2.4, word, ha="center", va="center", fontsize=10, **style)
         heights = _input_heights()[3 * group : 3 * group + 3]
         axes.add_patch(
@@ -200,7 +199,7 @@ def _draw_inputs(axes: Axes, heights: list[float]) -> None:
 
 def main(path: Path) -> None:
     """Write the picture."""
-    agent = find_source(AGENT)
+    agent = find_agent(AGENT)
     with mpl.rc_context(STYLE):
         write_atomically(path, svg_bytes(concept_figure(example(agent.genotype, agent.readings))))
     print(path)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final
+from typing import Any, Final
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -14,8 +14,8 @@ from arm2d.constants import DT
 from evolution.agents.behaviour import record_behaviour
 from evolution.agents.classes import Sampling
 from evolution.agents.subtasks import AgentClass
-from evolution.figures.behaviour import draw_alpha, draw_beta, head, trajectory_handles
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.behaviour import draw_alpha, draw_beta, trajectory_handles
+from evolution.figures.page import FAINT, STYLE, beside, head
 from evolution.results.classes import ClassBehaviour
 from evolution.results.wording import TITLES
 from evolution.runs.recorded import recorded_generation
@@ -33,7 +33,9 @@ def fans_figure(
     The representative is the observed agent whose success on the nine instructions is nearest to the mean
     of its class.
     """
-    shown = {kind: each.representative for kind, each in classes.items() if each.representative}
+    shown = {
+        kind: behaviour.representative for kind, behaviour in classes.items() if behaviour.representative
+    }
     if not shown:
         return None
     instructions = condition.instructions
@@ -43,10 +45,8 @@ def fans_figure(
         what = "An agent of each class" if len(shown) > 1 else "An agent of the only class there is"
         head(figure, what, f"{TITLES[condition]}; nearest in success to the mean of its class")
         left = 0.75 / figure.get_size_inches()[0]
-        grid = figure.add_gridspec(
-            len(instructions), len(shown), left=left, right=0.985,
-            top=1 - HEAD / height, bottom=FOOT / height, hspace=0.42, wspace=0.1,
-        )  # fmt: skip
+        grid = figure.add_gridspec(len(instructions), len(shown), hspace=0.42, wspace=0.1)
+        grid.update(left=left, right=0.985, top=1 - HEAD / height, bottom=FOOT / height)
         for column, (kind, (run, generation, rank)) in enumerate(shown.items()):
             genotype = recorded_generation(run, generation).best_genotypes[0, rank]
             readings = run.config.readings
@@ -61,20 +61,19 @@ def fans_figure(
                 draw_beta(below, behaviour, instruction)
                 _trim(above, below, end, column, row == len(instructions) - 1)
                 if row == 0:
-                    name = f"{run.config.seed}, generation {generation}, rank {rank}"
-                    above.annotate(
-                        str(kind), (0, 1), xytext=(0, 32), xycoords="axes fraction",
-                        textcoords="offset points", fontsize=11.5, fontweight="bold",
-                    )  # fmt: skip
-                    above.annotate(
-                        f"seed {name}", (0, 1), xytext=(0, 20), xycoords="axes fraction",
-                        textcoords="offset points", fontsize=8.5, color=FAINT,
-                    )  # fmt: skip
+                    name = f"seed {run.config.seed}, generation {generation}, rank {rank}"
+                    _title(above, str(kind), 32, fontsize=11.5, fontweight="bold")
+                    _title(above, name, 20, fontsize=8.5, color=FAINT)
         handles = trajectory_handles()
         figure.legend(
             handles=handles, loc="lower center", frameon=False, ncols=min(5, 2 * len(shown)), fontsize=8
         )
     return figure
+
+
+def _title(axes: Axes, text: str, height: float, **look: Any) -> None:
+    """Text above a column, so many points above its highest panel."""
+    beside(axes, text, (0, 1), (0, height), xycoords="axes fraction", **look)
 
 
 def _trim(above: Axes, below: Axes, end: float, column: int, lowest: bool) -> None:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from arm2d.drawing import INK
 from evolution.agents.subtasks import AgentClass, classify
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, RIGHT_END, STYLE, beside
 from evolution.results.generalisers import Generalisers
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES
@@ -41,13 +41,15 @@ MANY: Final = 150
 
 def generalisers_figure(results: Results) -> Figure:
     """Fully and partially compositional agents among the five best of each late generation, run by run."""
-    heights = [[_height(each, run) for run in range(len(each.runs))] for each in results.conditions.values()]
-    tall = [max(sum(each), FLAT) for each in heights]
+    heights = [
+        [_height(found, run) for run in range(len(found.runs))] for found in results.conditions.values()
+    ]
+    tall = [max(sum(own), FLAT) for own in heights]
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 1.5 + sum(tall) + 0.45 * len(tall)), layout="constrained")
         panels = figure.subplots(len(tall), 1, sharex=True, squeeze=False, height_ratios=tall)[:, 0]
-        for axes, own, (condition, each) in zip(panels, heights, results.conditions.items(), strict=True):
-            _draw_condition(axes, each, own)
+        for axes, own, (condition, found) in zip(panels, heights, results.conditions.items(), strict=True):
+            _draw_condition(axes, found, own)
             axes.set_title(TITLES[condition], loc="left", fontweight="bold")
         panels[-1].set_xlabel("generation")
         figure.legend(handles=_handles(), loc="outside lower center", frameon=False, ncols=2, fontsize=8.5)
@@ -99,21 +101,16 @@ def draw_marks(axes: Axes, found: Generalisers, top: float, bottom: float) -> No
     """Fully compositional agents, each in the lane of its rank, the generation's best in the top lane."""
     lanes = top - (found.ranks + 0.5) * (top - bottom) / N_BEST
     size = 7.5 if len(found) <= MANY else 4.0
-    axes.plot(
-        found.generations, lanes, "d", ms=size, color=FULL_COLOUR, mec="white", mew=0.5, zorder=3,
-        clip_on=False,
-    )  # fmt: skip
+    look = {"color": FULL_COLOUR, "mec": "white", "mew": 0.5, "zorder": 3, "clip_on": False}
+    axes.plot(found.generations, lanes, "d", ms=size, **look)
 
 
 def _note(axes: Axes, results: ConditionResults, run: int, middle: float) -> None:
     """What there is in a row, at its right end."""
     full, partial = (int(results.members[kind][run]) for kind in (AgentClass.FULL, AgentClass.PARTIAL))
     text = f"{full:,} fully, {partial:,} partially" if full or partial else "none"
-    axes.annotate(
-        text, (1.0, middle), xytext=(6, 0), xycoords=("axes fraction", "data"), textcoords="offset points",
-        va="center", fontsize=8, color=INK if full else FAINT, fontweight="bold" if full else "normal",
-        annotation_clip=False,
-    )  # fmt: skip
+    look = {"color": INK, "fontweight": "bold"} if full else {"color": FAINT}
+    beside(axes, text, (1.0, middle), (6, 0), xycoords=RIGHT_END, va="center", fontsize=8, **look)
 
 
 def _members(results: ConditionResults, run: int, kind: AgentClass) -> NDArray[np.bool_]:

@@ -12,10 +12,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
-from arm2d import NON_EXPERIENCED
+from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.agents.lineage_scores import IN_A_ROW, NEVER, LineageScores, Skills
-from evolution.figures.style import FAINT, STYLE
+from arm2d.records import brief
+from evolution.agents.firsts import NEVER
+from evolution.agents.lineage_scores import IN_A_ROW, LineageScores, Skills
+from evolution.figures.page import FAINT, STYLE, beside, head
 
 ROW_HEIGHT: Final = 0.36  # [in]
 GROUP_GAP: Final = 0.34  # [in]
@@ -25,6 +27,8 @@ WIDTH: Final = 8.6  # [in]
 LEFT, RIGHT = 0.19, 0.965
 TICKS: Final = (0, 10, 50, 100, 250, 500, 1000, 2000, 3000, 4000, 5000, 6000)
 BENT_COLOUR: Final = "#5B4B8A"
+# What lies under a flag's number, so that it can be read on any row.
+PAPER: Final = {"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.88}
 
 
 @dataclass(frozen=True)
@@ -49,16 +53,17 @@ class Row:
     never_met: bool = False
     beside: NDArray[np.float64] | None = None
 
+    __repr__ = brief
 
-def lineage_figure(scores: LineageScores, origin: str) -> Figure:
+
+def lineage_figure(scores: LineageScores, origin: str = "") -> Figure:
     """A page with twelve rows: S1 on the target with S2 bent by action word, then the nine instructions."""
     groups = skill_rows(scores)
     n_rows = sum(len(rows) for _, rows in groups)
     height = HEAD + FOOT + n_rows * ROW_HEIGHT + len(groups) * GROUP_GAP
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(WIDTH, height))
-        figure.text(0.02, 1 - 0.33 / height, "The agent's line of ancestors", fontsize=15, fontweight="bold")
-        figure.text(0.02, 1 - 0.55 / height, origin, fontsize=9, color=FAINT)
+        head(figure, "The agent's line of ancestors", origin, left=0.02)
         top = height - HEAD
         for title, rows in groups:
             figure.text(0.02, (top + 0.05) / height, title, fontsize=9.5, fontweight="bold", va="bottom")
@@ -74,21 +79,24 @@ def lineage_figure(scores: LineageScores, origin: str) -> Figure:
 
 def skill_rows(scores: LineageScores) -> list[tuple[str, Sequence[Row]]]:
     """The rows of the figure by the title of their group."""
-    actions = [each.action for each in scores.condition.instructions[::3]]
+    actions = [word.action for word in scores.condition.instructions[::3]]
     held, beside = scores.held_bent, scores.reached_bent.shares
     bent = [
         Row(f"hearing {action.name}", BENT_COLOUR, *_column(held, column), beside=beside[:, column])
         for column, action in enumerate(actions)
     ]
     rows = [
-        Row(
-            each.object.name.capitalize(), OBJECT_COLOURS[each.object], *_column(scores.success, column),
-            never_met=each in NON_EXPERIENCED,
-        )
-        for column, each in enumerate(scores.condition.instructions)
-    ]  # fmt: skip
+        _instruction_row(instruction, *_column(scores.success, column))
+        for column, instruction in enumerate(scores.condition.instructions)
+    ]
     groups = [(action.name, rows[3 * i : 3 * i + 3]) for i, action in enumerate(actions)]
     return [("S1 on the target, S2 bent", bent), *groups]
+
+
+def _instruction_row(instruction: Instruction, shares: NDArray[np.float64], first: int, for_good: int) -> Row:
+    """The row of carrying out an instruction, in the colour of its object."""
+    name, colour = instruction.object.name.capitalize(), OBJECT_COLOURS[instruction.object]
+    return Row(name, colour, shares, first, for_good, never_met=instruction in NON_EXPERIENCED)
 
 
 def draw_skill(axes: Axes, row: Row) -> None:
@@ -117,11 +125,9 @@ def draw_skill(axes: Axes, row: Row) -> None:
 def _mark(axes: Axes, generation: int, colour: str, *, leftwards: bool) -> None:
     """A flag where a skill came, with its number on either side."""
     axes.axvline(generation, color=colour, lw=1.3)
-    axes.annotate(
-        f"{generation:,}", (generation, 0.5), xytext=(-4 if leftwards else 4, 0), textcoords="offset points",
-        ha="right" if leftwards else "left", va="center", fontsize=8, fontweight="bold", color=colour,
-        bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.88},
-    )  # fmt: skip
+    look = {"va": "center", "fontsize": 8, "fontweight": "bold", "color": colour, "bbox": PAPER}
+    offset, side = ((-4, 0), "right") if leftwards else ((4, 0), "left")
+    beside(axes, f"{generation:,}", (generation, 0.5), offset, ha=side, **look)
 
 
 def _place(axes: Axes, generation: int) -> float:
@@ -131,8 +137,8 @@ def _place(axes: Axes, generation: int) -> float:
 
 def _draw_generations(axes: Axes, n_generations: int) -> None:
     """The axis below the lowest row."""
-    ticks = [each for each in TICKS if each < n_generations]
-    axes.set_xticks(ticks, [f"{each:,}" for each in ticks], fontsize=8.5)
+    ticks = [tick for tick in TICKS if tick < n_generations]
+    axes.set_xticks(ticks, [f"{tick:,}" for tick in ticks], fontsize=8.5)
     axes.tick_params(axis="x", length=3, color=FAINT)
     axes.set_xlabel("generation (square-root scale)")
 
@@ -143,7 +149,7 @@ def _legend(scores: LineageScores) -> str:
         f"Height of a row: share of {2 * scores.per_area} trials carried out, 0 to 100 %. "
         "Flags: generation in which the skill first came\n"
         f"(black: {IN_A_ROW} generations in a row above 75 %) and in which it came for good, "
-        "if later (grey: nine tenths of the rest too).\n"
+        "if later (grey: the agent and nine tenths of the rest too).\n"
         "S2 bent: beta above 45° while S1 is on the target, for a second (dark) or at all (pale)."
     )
 

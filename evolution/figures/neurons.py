@@ -16,10 +16,8 @@ from arm2d import ObjectWord
 from arm2d.constants import N_INTER
 from arm2d.drawing import INK, OBJECT_COLOURS
 from evolution.agents.behaviour import Behaviour
-from evolution.agents.events import events_of
-from evolution.agents.variance import VarianceShares, bin_times, mean_by_instruction
-from evolution.figures.behaviour import head
-from evolution.figures.style import FAINT, STYLE
+from evolution.agents.variance import VarianceShares, bin_times, events_of, mean_by_instruction
+from evolution.figures.page import FAINT, STYLE, head
 
 ACTION_STYLES: Final = ("-", (0, (5, 1.6)), (0, (1.2, 1.4)))
 # Words are no objects: their colours stay clear of blue, green and red.
@@ -32,7 +30,7 @@ SHARE_LABELS: Final = {
 }
 
 
-def activity_figure(behaviour: Behaviour, origin: str) -> Figure:
+def activity_figure(behaviour: Behaviour, origin: str = "") -> Figure:
     """A page with each inter-neuron's mean output round each event, a line for each instruction."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 6.6))
@@ -56,24 +54,22 @@ def draw_activity(axes: Axes, means: NDArray[np.float64]) -> None:
     """Mean outputs of one neuron, [9, B]."""
     axes.axvline(0, color=FAINT, lw=0.8)
     for instruction, mean in enumerate(means):
-        axes.plot(
-            bin_times(), mean, color=OBJECT_COLOURS[ObjectWord(instruction % 3)],
-            ls=ACTION_STYLES[instruction // 3], lw=1.6,
-        )  # fmt: skip
+        colour, style = OBJECT_COLOURS[ObjectWord(instruction % 3)], ACTION_STYLES[instruction // 3]
+        axes.plot(bin_times(), mean, color=colour, ls=style, lw=1.6)
     axes.set(ylim=(-0.03, 1.03), yticks=[0, 0.5, 1])
     axes.tick_params(labelsize=8, color=FAINT, length=2.5)
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def variance_figure(shares: Mapping[str, VarianceShares], origin: str) -> Figure:
+def variance_figure(shares: Mapping[str, VarianceShares], origin: str = "") -> Figure:
     """A page with the shares of variance round each event, by the event's name."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 4.0))
         head(figure, "Which word the activity follows", origin)
         panels = figure.subplots(1, len(shares), sharey=True, squeeze=False)[0]
         figure.subplots_adjust(left=0.085, right=0.985, top=0.755, bottom=0.235, wspace=0.06)
-        for axes, (event, each) in zip(panels, shares.items(), strict=True):
-            draw_variance(axes, each)
+        for axes, (event, own) in zip(panels, shares.items(), strict=True):
+            draw_variance(axes, own)
             axes.set_title(event, loc="left", fontsize=10, fontweight="bold")
             axes.set_xlabel("time from it [s]")
         panels[0].set_ylabel("share of variance [%]")
@@ -104,14 +100,14 @@ def draw_variance(axes: Axes, shares: VarianceShares) -> None:
 def object_handles() -> list[Line2D]:
     """Colours of the object words."""
     return [
-        Line2D([], [], color=OBJECT_COLOURS[each], lw=2.5, label=each.name.capitalize())
-        for each in ObjectWord
+        Line2D([], [], color=OBJECT_COLOURS[word], lw=2.5, label=word.name.capitalize())
+        for word in ObjectWord
     ]
 
 
 def _action_handles(behaviour: Behaviour) -> list[Line2D]:
     """Line styles of the action words."""
-    actions = [each.action.name for each in behaviour.condition.instructions[::3]]
+    actions = [word.action.name for word in behaviour.condition.instructions[::3]]
     return [
         Line2D([], [], color=INK, lw=1.6, ls=style, label=name)
         for name, style in zip(actions, ACTION_STYLES, strict=True)

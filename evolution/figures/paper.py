@@ -19,11 +19,12 @@ from arm2d.drawing import INK
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS
 from evolution.agents.transitions import Transition, action_transitions, object_transitions
 from evolution.figures.generalisers import CLASS_COLOURS, generalisers_figure
+from evolution.figures.page import FAINT, STYLE
 from evolution.figures.run import running_median
-from evolution.figures.style import FAINT, STYLE
 from evolution.results import published
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES
+from evolution.search.settings import LARGEST_FITNESS
 
 # From pale sand (never) to deep teal (nearly always), lightness falling evenly.
 CATEGORY_MAP: Final = LinearSegmentedColormap.from_list(
@@ -36,15 +37,15 @@ def fitness_figure(results: Results) -> Figure:
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 4.1), layout="constrained")
         panels = figure.subplots(1, len(results.conditions), sharey=True, squeeze=False)[0]
-        for axes, (condition, each) in zip(panels, results.conditions.items(), strict=True):
-            _draw_fitness(axes, each)
+        for axes, (condition, found) in zip(panels, results.conditions.items(), strict=True):
+            _draw_fitness(axes, found)
             axes.set_title(TITLES[condition], loc="left", fontweight="bold")
         panels[0].set_ylabel("best fitness, mean of 28 trials")
     return figure
 
 
 def _draw_fitness(axes: Axes, results: ConditionResults) -> None:
-    axes.axhline(published.LARGEST_FITNESS, color=FAINT, lw=1.0, ls=(0, (4, 3)))
+    axes.axhline(LARGEST_FITNESS, color=FAINT, lw=1.0, ls=(0, (4, 3)))
     colours = mpl.colormaps["viridis"](np.linspace(0.05, 0.85, max(len(results.runs), 1)))
     for seed, best, first, colour in zip(
         results.seeds, results.best, results.first_solved, colours, strict=True
@@ -64,17 +65,15 @@ def table_figure(results: Results) -> Figure:
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 3.9), layout="constrained")
         panels = figure.subplots(1, len(results.conditions), sharey=True, squeeze=False)[0]
-        for axes, (condition, each) in zip(panels, results.conditions.items(), strict=True):
-            _draw_bars(axes, each.counts, published.TABLE_II[condition])
+        for axes, (condition, found) in zip(panels, results.conditions.items(), strict=True):
+            _draw_bars(axes, found.counts, published.TABLE_II[condition])
             axes.set_title(TITLES[condition], loc="left", fontweight="bold")
         panels[0].set_ylabel("share of agents [%]")
         handles = [
             Patch(color=_category_colour(n), label=_category_label(n)) for n in reversed(range(N_CATEGORIES))
         ]
-        figure.legend(
-            handles=handles, loc="outside right center", frameon=False, fontsize=7.5, title="successes of 80",
-            title_fontsize=8,
-        )  # fmt: skip
+        place = {"loc": "outside right center", "frameon": False}
+        figure.legend(handles=handles, fontsize=7.5, title="successes of 80", title_fontsize=8, **place)
     return figure
 
 
@@ -99,12 +98,12 @@ def transitions_figure(results: Results) -> Figure:
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 4.3 * len(results.conditions)), layout="constrained")
         panels = figure.subplots(len(results.conditions), 2, squeeze=False, sharey=True)
-        for pair, (condition, each) in zip(panels, results.conditions.items(), strict=True):
+        for pair, (condition, found) in zip(panels, results.conditions.items(), strict=True):
             for axes, test, transitions in (
                 (pair[0], "action", action_transitions(condition)),
                 (pair[1], "object", object_transitions(condition)),
             ):
-                _draw_transitions(axes, each, test, transitions)
+                _draw_transitions(axes, found, test, transitions)
                 title = f"{TITLES[condition]}: {test} word changes"
                 axes.set_title(title, loc="left", fontweight="bold", pad=46)
             pair[0].set_ylabel("successful trials [%]")
@@ -123,7 +122,9 @@ def _draw_transitions(
             axes.plot(places, 100 * success, "o", ms=5, alpha=0.9, color=CLASS_COLOURS[kind], label=label)
         else:
             axes.plot([], [], "o", ms=5, color=CLASS_COLOURS[kind], label=f"{kind}: no agent")
-    axes.set_xticks(places, [_short(each, test) for each in transitions], rotation=60, ha="right", fontsize=7)
+    axes.set_xticks(
+        places, [_short(transition, test) for transition in transitions], rotation=60, ha="right", fontsize=7
+    )
     axes.set_ylim(-4, 104)
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(axis="x", color=FAINT, alpha=0.25, lw=0.5)

@@ -1,51 +1,37 @@
-"""Figures: drawing takes data and axes; `save_figure` writes PNG and SVG."""
+"""One run, drawn: what its champion makes of the nine instructions, and its fitness over the generations."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Final
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
-from arm2d import ActionWord, Condition, ObjectWord
-from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.figures.page import png_bytes, svg_bytes
-from evolution.figures.style import FAINT, STYLE
+from arm2d import ActionWord, ObjectWord
+from arm2d.drawing import OBJECT_COLOURS
+from evolution.figures.page import FAINT, RIGHT_END, STYLE, SUCCESS_MAP, beside, head, ink_on
 from evolution.runs.history import History
-from evolution.runs.storage import write_atomically
 from evolution.search.evaluation import Evaluation
+from evolution.search.settings import LARGEST_FITNESS
 
 BEST_COLOUR: Final = "#1B4F72"
 MEAN_COLOUR: Final = "#8FB3CC"
-# Paper white at 0 % to deep teal at 100 %, lightness falling evenly.
-SUCCESS_COLOURS: Final = ("#F4F4F0", "#BBD6D2", "#5A9FA0", "#12545F")
-SUCCESS_MAP: Final = LinearSegmentedColormap.from_list(
-    "success", ["#F7F7F4", "#BBD6D2", "#5A9FA0", "#12545F"]
-)
 
 
-def heat_map(evaluation: Evaluation, origin: str) -> Figure:
+def heat_map(evaluation: Evaluation, origin: str = "") -> Figure:
     """A page with the successes of one agent on all nine instructions."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.0, 5.7))
         axes = figure.add_axes((0.175, 0.075, 0.8, 0.74))
         draw_heat_map(axes, evaluation)
-        _head(figure, 0.175, "Instructions carried out", origin)
+        head(figure, "Instructions carried out", origin, left=0.175)
         note = f"{evaluation.trials} trials each, half of them from either start area"
         figure.text(0.175, 0.025, note, fontsize=8.5, color=FAINT)
     return figure
-
-
-def _head(figure: Figure, left: float, title: str, origin: str) -> None:
-    """Title and provenance at the top of a page."""
-    figure.text(left, 0.945, title, fontsize=15, fontweight="bold")
-    figure.text(left, 0.905, origin, fontsize=9, color=FAINT)
 
 
 def draw_heat_map(axes: Axes, evaluation: Evaluation) -> None:
@@ -55,8 +41,8 @@ def draw_heat_map(axes: Axes, evaluation: Evaluation) -> None:
     axes.imshow(shares, cmap=SUCCESS_MAP, vmin=0.0, vmax=1.0, aspect="auto")
     axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False, pad=6)
     actions = (ActionWord.MOVE, ActionWord.TOUCH, evaluation.condition.third_action)
-    axes.set_yticks(range(3), [each.name for each in actions], fontsize=12)
-    axes.set_xticks(range(3), [each.name.capitalize() for each in ObjectWord], fontsize=13, fontweight="bold")
+    axes.set_yticks(range(3), [word.name for word in actions], fontsize=12)
+    axes.set_xticks(range(3), [word.name.capitalize() for word in ObjectWord], fontsize=13, fontweight="bold")
     for label, colour in zip(axes.get_xticklabels(), OBJECT_COLOURS.values(), strict=True):
         label.set_color(colour)
     for edge in axes.spines.values():
@@ -69,7 +55,7 @@ def draw_heat_map(axes: Axes, evaluation: Evaluation) -> None:
 def _draw_cell(axes: Axes, row: int, column: int, count: int, trials: int, never_met: bool) -> None:
     """Numbers and frame of one instruction."""
     share = count / trials
-    colour = "white" if share > 0.55 else INK
+    colour = ink_on(share)
     axes.text(column, row - 0.06, f"{100 * share:.0f} %", ha="center", va="center", fontsize=20, color=colour)
     axes.text(column, row + 0.2, f"{count} of {trials}", ha="center", va="center", fontsize=9, color=colour)
     axes.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, fill=False, edgecolor="white", linewidth=5))
@@ -80,47 +66,29 @@ def _draw_cell(axes: Axes, row: int, column: int, count: int, trials: int, never
         axes.add_patch(frame)
 
 
-def fitness_curve(history: History, condition: Condition, origin: str) -> Figure:
+def fitness_curve(history: History, origin: str = "") -> Figure:
     """A page with the fitness of a run over its generations."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.6, 4.6))
         axes = figure.add_axes((0.085, 0.125, 0.89, 0.735))
-        draw_fitness_curve(axes, history, condition)
-        _head(figure, 0.085, "Fitness over the generations", origin)
+        draw_fitness_curve(axes, history)
+        head(figure, "Fitness over the generations", origin, left=0.085)
     return figure
 
 
-def draw_fitness_curve(axes: Axes, history: History, condition: Condition) -> None:
+def draw_fitness_curve(axes: Axes, history: History) -> None:
     """Best and mean fitness per generation, their running median, and the largest fitness possible."""
-    limit = largest_fitness(condition)
     generations = history.generations
-    axes.axhline(limit, color=FAINT, linewidth=1.0, linestyle=(0, (4, 3)))
-    axes.annotate(
-        f"largest possible, {limit:.3f}",
-        (1.0, limit),
-        xytext=(-4, 4),
-        xycoords=("axes fraction", "data"),
-        textcoords="offset points",
-        ha="right",
-        fontsize=8.5,
-        color=FAINT,
-    )
-    for name, values, colour in (
-        ("best", history.best, BEST_COLOUR),
-        ("mean", history.mean, MEAN_COLOUR),
-    ):
+    axes.axhline(LARGEST_FITNESS, color=FAINT, linewidth=1.0, linestyle=(0, (4, 3)))
+    look = {"xycoords": RIGHT_END, "ha": "right", "fontsize": 8.5, "color": FAINT}
+    beside(axes, f"largest possible, {LARGEST_FITNESS:.3f}", (1.0, LARGEST_FITNESS), (-4, 4), **look)
+    for name, values, colour in (("best", history.best, BEST_COLOUR), ("mean", history.mean, MEAN_COLOUR)):
         axes.plot(generations, values, color=colour, linewidth=0.5, alpha=0.35)
         axes.plot(generations, running_median(values), color=colour, linewidth=1.8, label=name)
-    axes.set(xlabel="generation", ylabel="fitness, mean of 28 trials", ylim=(0.0, 1.1 * limit))
+    axes.set(xlabel="generation", ylabel="fitness, mean of 28 trials", ylim=(0.0, 1.1 * LARGEST_FITNESS))
     axes.set_xlim(generations[0], max(generations[-1], generations[0] + 1))
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(frameon=False, loc="lower right", ncols=2)
-
-
-def largest_fitness(condition: Condition) -> float:
-    """Mean of the largest F1 + F2 + F3: 3 for MOVE and TOUCH, 2 for the third action; 18 / 7."""
-    largest = [2.0 if each.action is condition.third_action else 3.0 for each in condition.experienced]
-    return sum(largest) / len(largest)
 
 
 def running_median(values: NDArray[np.float64], width: int = 51) -> NDArray[np.float64]:
@@ -128,16 +96,3 @@ def running_median(values: NDArray[np.float64], width: int = 51) -> NDArray[np.f
     half = width // 2
     padded = np.pad(values, half, constant_values=np.nan)
     return np.nanmedian(np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1), axis=-1)
-
-
-def save_figure(figure: Figure, stem: Path) -> list[Path]:
-    """Write a figure as PNG and SVG beside each other; both paths. The SVG stays small, see `drawings`.
-
-    Raises:
-        OSError: If they cannot be written; then neither is left half-written.
-    """
-    paths = []
-    for suffix, data in (("png", png_bytes(figure)), ("svg", svg_bytes(figure))):
-        paths.append(stem.with_name(f"{stem.name}.{suffix}"))
-        write_atomically(paths[-1], data)
-    return paths

@@ -14,18 +14,18 @@ from numpy.typing import NDArray
 from arm2d import ObjectWord
 from arm2d.constants import N_INTER
 from arm2d.drawing import INK, OBJECT_COLOURS
-from evolution.agents.behaviour import NEVER, Behaviour
-from evolution.figures.behaviour import head
+from evolution.agents.behaviour import Behaviour
+from evolution.agents.firsts import NEVER
 from evolution.figures.neurons import object_handles
-from evolution.figures.style import FAINT, STYLE
+from evolution.figures.page import FAINT, STYLE, beside, head
 
 SHOWN_PER_AREA: Final = 3
 
 
-def state_space_figure(behaviour: Behaviour, origin: str) -> Figure:
+def state_space_figure(behaviour: Behaviour, origin: str = "") -> Figure:
     """A page with the paths of the three outputs in the plane that shows most of them, by action word."""
     mean, plane, shares = principal_plane(behaviour.activity)
-    actions = [each.action.name for each in behaviour.condition.instructions[::3]]
+    actions = [word.action.name for word in behaviour.condition.instructions[::3]]
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.2, 4.3))
         head(figure, "The paths through the network's states", origin)
@@ -67,9 +67,11 @@ def draw_paths(axes: Axes, behaviour: Behaviour, points: NDArray[np.float64], ac
         colour, path = OBJECT_COLOURS[ObjectWord(behaviour.objects[trial])], points[trial]
         axes.plot(*path.T, color=colour, lw=0.9, alpha=0.8)
         events = (
-            (0, "s", INK), (behaviour.first_sight[trial], "o", "white"),
-            (behaviour.first_touch[trial], "D", colour), (behaviour.steps[trial], "X", colour),
-        )  # fmt: skip
+            (0, "s", INK),
+            (behaviour.first_sight[trial], "o", "white"),
+            (behaviour.first_touch[trial], "D", colour),
+            (behaviour.steps[trial], "X", colour),
+        )
         for row, marker, face in events:
             if row != NEVER:
                 axes.plot(*path[row], marker, ms=5, mfc=face, mec=INK, mew=0.6, zorder=4)
@@ -90,10 +92,8 @@ def draw_cube(axes: Axes, mean: NDArray[np.float64], plane: NDArray[np.float64])
     for neuron in range(N_INTER):
         tip = (np.eye(N_INTER)[neuron] - mean) @ plane
         way = (tip - origin) / max(float(np.linalg.norm(tip - origin)), 1e-9)
-        axes.annotate(
-            f"neuron {neuron + 1}", tip, xytext=9 * way, textcoords="offset points", fontsize=7.5,
-            color=FAINT, ha="center", va="center", zorder=5,
-        )  # fmt: skip
+        look = {"fontsize": 7.5, "color": FAINT, "ha": "center", "va": "center", "zorder": 5}
+        beside(axes, f"neuron {neuron + 1}", tip, 9 * way, **look)
 
 
 def _path_handles() -> list[Line2D]:

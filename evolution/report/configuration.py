@@ -13,20 +13,20 @@ from evolution.runs.folder import META
 def settings_rows(results: Results) -> list[tuple[str, str]]:
     """Settings of the algorithm, with all values that occur."""
     mappings = [run.config.settings.to_mapping() for run in results.experiment.all_runs]
-    return [(name, ", ".join(sorted({str(each[name]) for each in mappings}))) for name in mappings[0]]
+    return [(name, ", ".join(sorted({str(settings[name]) for settings in mappings}))) for name in mappings[0]]
 
 
 def readings_rows(readings: Readings) -> list[tuple[str, str, bool]]:
     """(name, value, whether it is the default) of every reading."""
     default, values = Readings().to_mapping(), readings.to_mapping()
     return [
-        (each.name, _plain(values[each.name]), values[each.name] == default[each.name])
-        for each in fields(Readings)
+        (field.name, _plain(values[field.name]), values[field.name] == default[field.name])
+        for field in fields(Readings)
     ]
 
 
 def _plain(value: object) -> str:
-    return ", ".join(f"{each:g}" for each in value) if isinstance(value, list) else str(value)
+    return ", ".join(f"{number:g}" for number in value) if isinstance(value, list) else str(value)
 
 
 def versions_rows(results: Results) -> list[tuple[str, str]]:

@@ -2,36 +2,34 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
-from typing import Any
 
 from rich.table import Table
 
-from evolution.runs.sources import Source
+from evolution.report.columns import PlainTable
+from evolution.runs.sources import Agent
 from evolution.search.evaluation import Evaluation
 
 
-def rows_of(evaluation: Evaluation, agent: int = 0) -> list[dict[str, Any]]:
-    """What one agent made of each instruction: one plain record per instruction."""
+def instruction_table(evaluation: Evaluation, agent: int = 0) -> PlainTable[int]:
+    """What one agent made of every instruction."""
     right, left = evaluation.successes[agent].T
-    return [
+    return PlainTable(
         {
-            "instruction": str(instruction),
-            "experienced": bool(evaluation.experienced[i]),
-            "trials": evaluation.trials,
-            "successes": int(right[i] + left[i]),
-            "successes_right": int(right[i]),
-            "successes_left": int(left[i]),
-            "fitness": float(evaluation.fitness[agent, i]),
-            "f1": float(evaluation.f1[agent, i]),
-            "f2": float(evaluation.f2[agent, i]),
-            "f3": float(evaluation.f3[agent, i]),
-            "steps": float(evaluation.steps[agent, i]),
-        }
-        for i, instruction in enumerate(evaluation.condition.instructions)
-    ]
+            "instruction": lambda i: str(evaluation.condition.instructions[i]),
+            "experienced": lambda i: bool(evaluation.experienced[i]),
+            "trials": lambda i: evaluation.trials,
+            "successes": lambda i: int(right[i] + left[i]),
+            "successes_right": lambda i: int(right[i]),
+            "successes_left": lambda i: int(left[i]),
+            "fitness": lambda i: float(evaluation.fitness[agent, i]),
+            "f1": lambda i: float(evaluation.f1[agent, i]),
+            "f2": lambda i: float(evaluation.f2[agent, i]),
+            "f3": lambda i: float(evaluation.f3[agent, i]),
+            "steps": lambda i: float(evaluation.steps[agent, i]),
+        },
+        range(len(evaluation.condition.instructions)),
+    )
 
 
 def terminal_table(evaluation: Evaluation, title: str) -> Table:
@@ -40,7 +38,7 @@ def terminal_table(evaluation: Evaluation, title: str) -> Table:
     table.add_column("instruction")
     for heading in ("success", "from the right", "from the left", "fitness", "steps"):
         table.add_column(heading, justify="right")
-    for row in rows_of(evaluation):
+    for row in instruction_table(evaluation).rows():
         half = row["trials"] // 2
         table.add_row(
             row["instruction"] + ("" if row["experienced"] else " *"),
@@ -54,22 +52,13 @@ def terminal_table(evaluation: Evaluation, title: str) -> Table:
     return table
 
 
-def to_csv(evaluation: Evaluation) -> str:
-    """One line per instruction."""
-    rows, text = rows_of(evaluation), io.StringIO()
-    writer = csv.DictWriter(text, rows[0].keys(), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return text.getvalue()
-
-
-def to_json(evaluation: Evaluation, source: Source) -> str:
-    """The same with where the genotype comes from and what it was asked."""
+def to_json(evaluation: Evaluation, agent: Agent) -> str:
+    """The table with where the genotype comes from and what it was asked."""
     content = {
-        "origin": source.origin,
+        "origin": agent.origin,
         "condition": str(evaluation.condition),
-        "readings": source.readings.to_mapping(),
+        "readings": agent.readings.to_mapping(),
         "trial_seed": evaluation.trial_seed,
-        "instructions": rows_of(evaluation),
+        "instructions": instruction_table(evaluation).rows(),
     }
     return json.dumps(content, indent=2) + "\n"

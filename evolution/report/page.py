@@ -6,37 +6,32 @@ All numbers come from `evolution.results.analysis`; here they become text, table
 
 from __future__ import annotations
 
-import json
-import os
+import shlex
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from markupsafe import Markup
-from matplotlib.colors import to_hex
 
-from arm2d import NON_EXPERIENCED
-from arm2d.drawing import OBJECT_COLOURS
 from evolution.agents.classes import Sampling
 from evolution.agents.postevaluation import TRIALS
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.experiments.stage_times import stage_times
 from evolution.experiments.standing import standing_of
 from evolution.figures.paper import all_figures
-from evolution.figures.run import SUCCESS_MAP
+from evolution.player.agents import described
+from evolution.player.page import as_json, player_parts
 from evolution.report.classes import behaviours_kept, class_figures
 from evolution.report.configuration import readings_rows, settings_rows, versions_rows
 from evolution.report.pictures import figure_uri, file_uri
-from evolution.report.recordings import recordings_of
-from evolution.report.report_tables import category_tables, comparison_rows, departures_in_size, run_rows
-from evolution.report.sentences import result_sentences, standing_of_best
-from evolution.report.tables import main_lines
-from evolution.results.generaliser_text import generalisers_sentence
-from evolution.results.notable import Agent, best_agent
+from evolution.report.safety import content_policy, link_to
+from evolution.report.sentences import departures_in_size, result_sentences, standing_of_best
+from evolution.report.tables import category_tables, main_lines, shown_runs, shown_tests
+from evolution.results.notable import NotableAgent, best_agent
 from evolution.results.records import ConditionResults, Results
-from evolution.results.wording import TITLES
+from evolution.results.wording import TITLES, generalisers_sentence
+from evolution.runs.sources import find_agent
 from evolution.runs.storage import make_folder, write_atomically
 
 TEMPLATE: Final = "template.html"
@@ -44,7 +39,7 @@ TEMPLATE: Final = "template.html"
 FIGURE_FOLDERS: Final = {"lineage": "Its line of ancestors", "behaviour": "How it does it"}
 
 
-def write_report(results: Results, path: Path) -> Path:
+def write_report(results: Results, path: Path | str) -> Path:
     """Write the page.
 
     Args:
@@ -58,8 +53,10 @@ def write_report(results: Results, path: Path) -> Path:
         ValueError: If a file of a shown run is damaged.
         OSError: If it cannot be written.
     """
+    path = Path(path)
     make_folder(path.parent)
-    write_atomically(path, render(results, path.parent).encode())
+    # Names of folders and files may be no text at all.
+    write_atomically(path, render(results, path.parent).encode(errors="replace"))
     return path
 
 
@@ -72,14 +69,16 @@ def render(results: Results, home: Path) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    return environment.get_template(TEMPLATE).render(_content(results, home))
+    template, player = environment.get_template(TEMPLATE), player_parts()
+    policy = content_policy(Path(str(template.filename)).read_text(encoding="utf-8"), player["script"])
+    return template.render(policy=policy, player=player, **_content(results, home))
 
 
 def _content(results: Results, home: Path) -> dict[str, Any]:
     """Everything the template shows."""
     shown = replace(results, conditions={c: e for c, e in results.conditions.items() if len(e.runs)})
-    best = [(each, best_agent(each)) for each in shown.conditions.values()]
-    agents = [_agent(each, agent, results.experiment.path) for each, agent in best if agent is not None]
+    best = [(found, best_agent(found)) for found in shown.conditions.values()]
+    agents = [_agent(found, agent, results.experiment.path) for found, agent in best if agent is not None]
     figures = all_figures(shown) if shown.conditions else {}
     experiment = results.experiment
     return {
@@ -87,19 +86,19 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "sentences": result_sentences(results),
         "missing": results.missing,
         "sizes": departures_in_size(results),
-        "titles": [TITLES[each] for each in shown.conditions],
+        "titles": [TITLES[condition] for condition in shown.conditions],
         "main_lines": main_lines(shown),
         "category_tables": category_tables(shown),
-        "generalisers": [generalisers_sentence(each) for each in shown.conditions.values()],
-        "run_rows": run_rows(shown),
-        "comparison_rows": comparison_rows(results),
+        "generalisers": [generalisers_sentence(found) for found in shown.conditions.values()],
+        "runs": shown_runs(shown),
+        "tests": shown_tests(results),
         "standings": [standing_of(run.path, run.config) for run in experiment.all_runs],
         "subtasks": SUBTASKS,
-        "classes": [str(each) for each in AgentClass],
+        "classes": [str(kind) for kind in AgentClass],
         "figures": {name: figure_uri(figure) for name, figure in figures.items()},
         "agents": agents,
         **_classes(shown),
-        "recordings": _embedded([each["recordings"] for each in agents]),
+        "players": as_json([agent["player"] for agent in agents]),
         "trials": TRIALS,
         "films": list(_films(experiment.path, home)),
         "settings": settings_rows(results),
@@ -109,32 +108,39 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
     }
 
 
-def _agent(each: ConditionResults, agent: Agent, experiment: Path) -> dict[str, Any]:
-    """The best agent of a condition: its heat map, its recordings, and figures that lie beside its run."""
-    instructions = each.condition.instructions
-    cells = [
-        _cell(str(instruction), instruction in NON_EXPERIENCED, int(agent.successes[index]))
-        for index, instruction in enumerate(instructions)
-    ]
+def _agent(found: ConditionResults, agent: NotableAgent, experiment: Path) -> dict[str, Any]:
+    """The best agent of a condition: as it lives in the page, and figures that lie beside its run."""
+    figures, refused = _figures_beside(agent)
     return {
-        "condition": TITLES[each.condition],
-        "what": standing_of_best(each),
+        "condition": TITLES[found.condition],
+        "what": standing_of_best(found),
         "seed": agent.run.config.seed,
         "generation": agent.generation,
         "rank": agent.rank,
-        "source": str(agent.run.path.relative_to(experiment)),
-        "rows": [cells[start : start + 3] for start in (0, 3, 6)],
-        "objects": [(word.name.capitalize(), colour) for word, colour in OBJECT_COLOURS.items()],
-        "recordings": recordings_of(agent),
-        "figures": list(_figures_beside(agent)),
+        "source": shlex.quote(str(agent.run.path.relative_to(experiment))),
+        "player": _player(found, agent),
+        "figures": figures,
+        "refused": refused,
     }
+
+
+def _player(found: ConditionResults, agent: NotableAgent) -> dict[str, Any]:
+    """What the page's player is told of the agent.
+
+    Raises:
+        ValueError: If the agent's run is damaged.
+    """
+    source = find_agent(str(agent.run.path), generation=agent.generation, rank=agent.rank)
+    origin = f"seed {agent.run.config.seed}, generation {agent.generation}, rank {agent.rank}"
+    note = f"The {standing_of_best(found)}: {origin}."
+    return described(source, TITLES[found.condition], note, agent.successes.tolist())
 
 
 def _classes(shown: Results) -> dict[str, Any]:
     """What was observed of the classes of agents, and how to observe what was not."""
     behaviours, missing = behaviours_kept(shown, Sampling())
     figures = class_figures(behaviours, Sampling())
-    some = any(each.members[kind].any() for each in shown.conditions.values() for kind in AgentClass)
+    some = any(found.members[kind].any() for found in shown.conditions.values() for kind in AgentClass)
     return {
         "class_figures": [figure_uri(figure) for figure in figures.values()],
         "class_missing": missing,
@@ -142,35 +148,25 @@ def _classes(shown: Results) -> dict[str, Any]:
     }
 
 
-def _cell(instruction: str, never_met: bool, successes: int) -> dict[str, Any]:
-    share = successes / TRIALS
-    return {
-        "instruction": instruction,
-        "never_met": never_met,
-        "successes": successes,
-        "percent": f"{100 * share:.0f} %",
-        "colour": to_hex(SUCCESS_MAP(share)),
-        "ink": "#ffffff" if share > 0.55 else "#1a1a1a",
-    }
-
-
-def _figures_beside(agent: Agent) -> Iterable[tuple[str, str]]:
-    """(caption, picture) of what was drawn for exactly this agent."""
+def _figures_beside(agent: NotableAgent) -> tuple[list[tuple[str, str]], list[str]]:
+    """(caption, picture) of what was drawn for exactly this agent; a sentence for each that is not shown."""
     stem = f"generation-{agent.generation:06d}-rank-{agent.rank}"
+    figures, refused = [], []
     for folder, caption in FIGURE_FOLDERS.items():
         for path in sorted((agent.run.path / folder).glob(f"{stem}*.svg")):
             what = path.stem.removeprefix(stem).strip("-").replace("-", " ")
-            yield (f"{caption}: {what}" if what else caption), file_uri(path)
+            try:
+                figures.append((f"{caption}: {what}" if what else caption, file_uri(path)))
+            except (ValueError, OSError) as error:
+                refused.append(f"{path} is not shown: {error}")
+    return figures, refused
 
 
 def _films(experiment: Path, home: Path) -> Iterable[tuple[str, str]]:
-    """(name, relative link) of every film that lies beside the runs."""
-    for path in sorted([*experiment.glob("videos/*.mp4"), *experiment.glob("*/*/videos/*.mp4")]):
+    """(name, relative link) of every film that lies beside the runs; links and unfinished files are none."""
+    films = [*experiment.glob("videos/[!.]*.mp4"), *experiment.glob("*/*/videos/[!.]*.mp4")]
+    for path in sorted(films):
+        if path.is_symlink() or path.parent.is_symlink() or not path.is_file():
+            continue
         parts = [part for part in path.relative_to(experiment).parts[:-1] if part != "videos"]
-        yield ", ".join([*parts, path.stem.replace("-", " ")]), os.path.relpath(path, home)
-
-
-def _embedded(value: object) -> Markup:
-    """JSON that can stand in a script element, whatever strings it holds."""
-    text = json.dumps(value, separators=(",", ":"))
-    return Markup(text.replace("<", "\\u003c"))  # noqa: S704 - escaped here
+        yield ", ".join([*parts, path.stem.replace("-", " ")]), link_to(path, home)

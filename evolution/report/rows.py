@@ -1,109 +1,192 @@
-"""An analysed experiment as rows of tables for programs; the first row of each names its columns."""
+"""An analysed experiment as tables for programs: Table II, runs, transitions, tests, generalisers."""
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from arm2d import Condition
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
+from evolution.report.columns import PlainTable
 from evolution.results import published
-from evolution.results.generalisers import CHANCE_RANK
-from evolution.results.records import Results
+from evolution.results.generalisers import CHANCE_RANK, Generalisers
+from evolution.results.records import AnalysedRun, Results, TransitionOutcome
+from evolution.results.statistics import Comparison
 from evolution.search.settings import N_BEST
 
 
-def table_ii_rows(results: Results) -> Iterable[Sequence[object]]:
+class Category(NamedTuple):
+    """A category of agents in one condition: how many there are in each sub-task."""
+
+    condition: Condition
+    number: int
+    paper: NDArray[np.int64]
+    ours: NDArray[np.int64]
+
+
+def table_ii(results: Results) -> PlainTable[Category]:
     """Agents by category and sub-task, published and ours."""
-    yield ("condition", "category", *(f"{whose} {name}" for name in SUBTASKS for whose in ("paper", "ours")))
-    for condition, each in results.conditions.items():
-        theirs = published.TABLE_II[condition]
-        for category in range(N_CATEGORIES):
-            pairs = zip(theirs[category], each.counts[category], strict=True)
-            yield (str(condition), category, *(int(n) for pair in pairs for n in pair))
+
+    def agents(whose: str, column: int) -> Callable[[Category], Any]:
+        return lambda category: getattr(category, whose)[column]
+
+    counts = {
+        f"{whose} {subtask}": agents(whose, column)
+        for column, subtask in enumerate(SUBTASKS)
+        for whose in ("paper", "ours")
+    }
+    return PlainTable(
+        {
+            "condition": lambda category: category.condition,
+            "category": lambda category: category.number,
+            **counts,
+        },
+        [
+            Category(condition, number, published.TABLE_II[condition][number], found.counts[number])
+            for condition, found in results.conditions.items()
+            for number in range(N_CATEGORIES)
+        ],
+    )
 
 
-def run_rows(results: Results) -> Iterable[Sequence[object]]:
-    """One row per run."""
-    kinds = [str(kind) for kind in AgentClass]
-    tops = [f"share in category 10, sub-task {name}" for name in SUBTASKS]
-    yield (
-        "condition", "seed", "plateau", "first generation that solved all trials", *kinds, *tops,
-        "distinct genotypes", "longest stay among the five best",
-    )  # fmt: skip
-    for condition, each in results.conditions.items():
-        shares = np.stack([each.share_in_top(name) for name in SUBTASKS], axis=1)
-        for run, seed in enumerate(each.seeds):
-            members = [int(each.members[kind][run]) for kind in AgentClass]
-            first = int(each.first_solved[run])
-            yield (
-                str(condition), int(seed), f"{each.plateau[run]:.4f}", first if first >= 0 else "never",
-                *members, *(f"{share:.4f}" for share in shares[run]),
-                int(each.genotypes[run]), int(each.longest_stay[run]),
-            )  # fmt: skip
+def run_table(results: Results) -> PlainTable[AnalysedRun]:
+    """Every run in a row."""
+
+    def members(kind: AgentClass) -> Callable[[AnalysedRun], int]:
+        return lambda run: run.members(kind)
+
+    def top_share(subtask: str) -> Callable[[AnalysedRun], str]:
+        return lambda run: f"{run.share_in_top(subtask):.4f}"
+
+    return PlainTable(
+        {
+            "condition": lambda run: run.condition,
+            "seed": lambda run: run.seed,
+            "plateau": lambda run: f"{run.plateau:.4f}",
+            "first generation that solved all trials": lambda run: run.first_solved_in_words("{}"),
+            **{kind: members(kind) for kind in AgentClass},
+            **{f"share in category 10, sub-task {subtask}": top_share(subtask) for subtask in SUBTASKS},
+            "distinct genotypes": lambda run: run.genotypes,
+            "longest stay among the five best": lambda run: run.longest_stay,
+        },
+        results.analysed_runs,
+    )
 
 
-def transition_rows(results: Results) -> Iterable[Sequence[object]]:
+class TestedClass(NamedTuple):
+    """A class of agents in the transition tests of one condition."""
+
+    condition: Condition
+    kind: AgentClass
+    outcome: TransitionOutcome
+
+
+def transition_table(results: Results) -> PlainTable[TestedClass]:
     """Agents that pass the transition tests, class by class."""
-    yield ("condition", "class", "agents", "pass action", "pass object", "runs action", "runs object")
-    for condition, each in results.conditions.items():
-        for kind, outcome in each.transitions.items():
-            yield (
-                str(condition), str(kind), outcome.agents, outcome.action_passed, outcome.object_passed,
-                outcome.runs_action, outcome.runs_object,
-            )  # fmt: skip
+    return PlainTable(
+        {
+            "condition": lambda tested: tested.condition,
+            "class": lambda tested: tested.kind,
+            "agents": lambda tested: tested.outcome.agents,
+            "pass action": lambda tested: tested.outcome.action_passed,
+            "pass object": lambda tested: tested.outcome.object_passed,
+            "runs action": lambda tested: tested.outcome.runs_action,
+            "runs object": lambda tested: tested.outcome.runs_object,
+        },
+        [
+            TestedClass(condition, kind, outcome)
+            for condition, found in results.conditions.items()
+            for kind, outcome in found.transitions.items()
+        ],
+    )
 
 
-def test_rows(results: Results) -> Iterable[Sequence[object]]:
+class BothTests(NamedTuple):
+    """A number compared between the conditions: runs as the unit, and in the paper's way."""
+
+    name: str
+    sound: Comparison
+    published_p: float
+
+
+def both_tests(results: Results) -> list[BothTests]:
+    """All that is compared."""
+    return [
+        BothTests(name, sound, results.published_tests[name][1])
+        for name, sound in results.comparisons.items()
+    ]
+
+
+def significance_table(results: Results) -> PlainTable[BothTests]:
     """Comparisons between the conditions: runs as the unit, and the paper's kind of test."""
-    yield (
-        "compared", "With-Indicate", "With-Ignore", "difference", "95 % low", "95 % high",
-        "Mann-Whitney p", "permutation p", "Cliff's delta", "Wilcoxon p as published",
-    )  # fmt: skip
-    for name, each in results.comparisons.items():
-        numbers = (
-            *each.means, each.difference, *each.interval, each.mann_whitney_p, each.permutation_p,
-            each.cliffs_delta, results.published_tests[name][1],
-        )  # fmt: skip
-        yield (name, *(f"{number:.4g}" for number in numbers))
+    return PlainTable(
+        {
+            "compared": lambda both: both.name,
+            "With-Indicate": lambda both: f"{both.sound.means[0]:.4g}",
+            "With-Ignore": lambda both: f"{both.sound.means[1]:.4g}",
+            "difference": lambda both: f"{both.sound.difference:.4g}",
+            "95 % low": lambda both: f"{both.sound.interval[0]:.4g}",
+            "95 % high": lambda both: f"{both.sound.interval[1]:.4g}",
+            "Mann-Whitney p": lambda both: f"{both.sound.mann_whitney_p:.4g}",
+            "permutation p": lambda both: f"{both.sound.permutation_p:.4g}",
+            "Cliff's delta": lambda both: f"{both.sound.cliffs_delta:.4g}",
+            "Wilcoxon p as published": lambda both: f"{both.published_p:.4g}",
+        },
+        both_tests(results),
+    )
 
 
-def generaliser_rows(results: Results) -> Iterable[Sequence[object]]:
-    """One row per run: where its fully compositional agents stand, and how long they last."""
-    yield (
-        "condition", "seed", "fully compositional agents", "most in a generation",
-        *(f"at rank {rank}" for rank in range(N_BEST)), "mean rank", "mean rank by chance",
-        "spells", "generations with one", "longest spell", "distinct genotypes",
-        "longest stay among the five best",
-        "found fully compositional in that stay", "longest line",
-    )  # fmt: skip
-    for condition, each in results.conditions.items():
-        for seed, found in zip(each.seeds, each.generalisers, strict=True):
-            longest = int(found.stays.argmax()) if len(found) else None
-            yield (
-                str(condition), int(seed), len(found), int(found.counts.max(initial=0)),
-                *map(int, found.by_rank),
-                f"{found.ranks.mean():.2f}" if len(found) else "", f"{CHANCE_RANK:g}",
-                len(found.spells), int(found.spells.sum()), int(found.spells.max(initial=0)),
-                len(found.stays),
-                int(found.stays.max(initial=0)), 0 if longest is None else int(found.verdicts[longest]),
-                found.longest_line,
-            )  # fmt: skip
+def generaliser_table(results: Results) -> PlainTable[AnalysedRun]:
+    """Every run in a row: where its fully compositional agents stand, and how long they last."""
+
+    def at_rank(rank: int) -> Callable[[AnalysedRun], Any]:
+        return lambda run: run.generalisers.by_rank[rank]
+
+    return PlainTable(
+        {
+            "condition": lambda run: run.condition,
+            "seed": lambda run: run.seed,
+            "fully compositional agents": lambda run: len(run.generalisers),
+            "most in a generation": lambda run: run.generalisers.counts.max(initial=0),
+            **{f"at rank {rank}": at_rank(rank) for rank in range(N_BEST)},
+            "mean rank": lambda run: f"{run.generalisers.ranks.mean():.2f}" if len(run.generalisers) else "",
+            "mean rank by chance": lambda run: f"{CHANCE_RANK:g}",
+            "spells": lambda run: len(run.generalisers.spells),
+            "generations with one": lambda run: run.generalisers.spells.sum(),
+            "longest spell": lambda run: run.generalisers.spells.max(initial=0),
+            "distinct genotypes": lambda run: len(run.generalisers.stays),
+            "longest stay among the five best": lambda run: run.generalisers.stays.max(initial=0),
+            "found fully compositional in that stay": lambda run: _verdicts(run.generalisers),
+            "longest line": lambda run: run.generalisers.longest_line,
+        },
+        results.analysed_runs,
+    )
 
 
-def genotype_rows(results: Results) -> Iterable[Sequence[object]]:
-    """One row per genotype that was ever found fully compositional: its stay among the five best."""
-    yield ("condition", "seed", "first among the five best", "stay", "found fully compositional")
-    for condition, each in results.conditions.items():
-        for seed, found in zip(each.seeds, each.generalisers, strict=True):
-            for row in zip(found.first, found.stays, found.verdicts, strict=True):
-                yield (str(condition), int(seed), *map(int, row))
+class Genotype(NamedTuple):
+    """A genotype that was ever found fully compositional, by its number in its run."""
+
+    run: AnalysedRun
+    number: int
 
 
-def to_csv(rows: Iterable[Sequence[object]]) -> str:
-    """Rows as comma-separated lines."""
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue()
+def genotype_table(results: Results) -> PlainTable[Genotype]:
+    """Genotypes that were ever found fully compositional: their stays among the five best."""
+    return PlainTable(
+        {
+            "condition": lambda genotype: genotype.run.condition,
+            "seed": lambda genotype: genotype.run.seed,
+            "first among the five best": lambda genotype: genotype.run.generalisers.first[genotype.number],
+            "stay": lambda genotype: genotype.run.generalisers.stays[genotype.number],
+            "found fully compositional": lambda genotype: genotype.run.generalisers.verdicts[genotype.number],
+        },
+        [Genotype(run, n) for run in results.analysed_runs for n in range(len(run.generalisers.stays))],
+    )
+
+
+def _verdicts(found: Generalisers) -> int:
+    """In how many generations of the longest stay its genotype was found fully compositional."""
+    return found.verdicts[found.stays.argmax()] if len(found) else 0

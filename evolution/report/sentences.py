@@ -1,17 +1,16 @@
-"""The result of an experiment in three sentences, whatever it is."""
+"""The result of an experiment in three sentences, whatever it is, and where its size is not the paper's."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from arm2d import NON_EXPERIENCED, Condition
-from evolution.agents.postevaluation import TRIALS
+from arm2d import Condition
 from evolution.agents.subtasks import AgentClass
 from evolution.report.tables import runs_with_generalisers
 from evolution.results import published
-from evolution.results.notable import best_agent
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES, of, p_value, percent
+from evolution.search.settings import LARGEST_FITNESS, Settings
 
 # A difference whose p-value is smaller is called one.
 LEVEL = 0.05
@@ -20,49 +19,54 @@ COMPARED = f"{AgentClass.FULL} agents"
 
 def result_sentences(results: Results) -> list[str]:
     """How far evolution came, who generalises, and whether the conditions differ."""
-    shown = {c: each for c, each in results.conditions.items() if len(each.runs)}
+    shown = {c: found for c, found in results.conditions.items() if len(found.runs)}
     if not shown:
         return ["No run is finished and tested yet, so there is no result."]
     return [_evolution(shown), _generalisation(shown), _difference(results, shown)]
 
 
-def standing_of_best(each: ConditionResults) -> str:
+def standing_of_best(found: ConditionResults) -> str:
     """What the best agent of a condition is called, for its heading."""
     return (
-        "best generaliser" if each.members[AgentClass.FULL].any() else "agent that comes nearest to all nine"
+        "best generaliser" if found.members[AgentClass.FULL].any() else "agent that comes nearest to all nine"
     )
+
+
+def departures_in_size(results: Results) -> list[str]:
+    """Where an experiment is smaller or larger than the paper's, so that numbers cannot be compared."""
+    sentences = []
+    settings = {run.config.settings for run in results.experiment.all_runs}
+    paper = Settings().to_mapping()
+    for own in settings:
+        ours = own.to_mapping()
+        sentences += [
+            f"{name.replace('_', ' ')} {ours[name]:,}, not {paper[name]:,}"
+            for name in paper
+            if ours[name] != paper[name]
+        ]
+    for condition, found in results.conditions.items():
+        n = len(found.runs)
+        if n != published.RUNS:
+            sentences.append(f"{n} {TITLES[condition]} run{'s' if n != 1 else ''}, not {published.RUNS}")
+    return sentences
 
 
 def _evolution(shown: dict[Condition, ConditionResults]) -> str:
-    counts = _and(f"{of(each.at_plateau, len(each.runs))} {TITLES[c]} runs" for c, each in shown.items())
-    return (
-        f"{counts} end at the largest fitness, 18/7 = {published.LARGEST_FITNESS:.3f}; in the paper all do."
-    )
+    counts = _and(f"{of(own.at_plateau, len(own.runs))} {TITLES[c]} runs" for c, own in shown.items())
+    return f"{counts} end at the largest fitness, 18/7 = {LARGEST_FITNESS:.3f}; in the paper all do."
 
 
 def _generalisation(shown: dict[Condition, ConditionResults]) -> str:
-    """Runs with fully compositional agents, and what the best of each condition makes of the two."""
-    found = {c: runs_with_generalisers(each) for c, each in shown.items()}
-    best = "; ".join(_best(c, each) for c, each in shown.items())
+    """Runs with fully compositional agents; what the best of them make of every instruction is in a map."""
+    found = {c: runs_with_generalisers(own) for c, own in shown.items()}
     paper = f"in the paper in {of(published.RUNS_WITH_GENERALISERS, published.RUNS)} With-Indicate runs"
     if not any(found.values()):
         return (
             "No agent is fully compositional, that is above 75 % on the seven experienced instructions and "
-            f"on both it never met ({paper} some are): {best}."
+            f"on both it never met ({paper} some are)."
         )
     counts = _and(f"{of(n, len(shown[c].runs))} {TITLES[c]} runs" for c, n in found.items())
-    return f"Agents that understand both instructions they never met arise in {counts} ({paper}): {best}."
-
-
-def _best(condition: Condition, each: ConditionResults) -> str:
-    agent = best_agent(each)
-    if agent is None:
-        return f"{TITLES[condition]} has no agent"
-    successes = dict(zip(condition.instructions, map(int, agent.successes), strict=True))
-    done = _and(f"{instruction} in {successes[instruction]}" for instruction in NON_EXPERIENCED)
-    known = min(successes[instruction] for instruction in condition.experienced)
-    others = f"each of the other seven in at least {known}" if known else "one of the other seven in none"
-    return f"the best {TITLES[condition]} agent carries out {done} of {TRIALS} trials, and {others}"
+    return f"Agents that understand both instructions they never met arise in {counts} ({paper})."
 
 
 def _difference(results: Results, shown: dict[Condition, ConditionResults]) -> str:
@@ -72,7 +76,7 @@ def _difference(results: Results, shown: dict[Condition, ConditionResults]) -> s
         return f"Only {TITLES[only]} runs can be analysed, so the conditions are not compared."
     first, second = (percent(mean) for mean in results.comparisons[COMPARED].means)
     share = f"of the With-Indicate agents {first} are fully compositional, of the With-Ignore agents {second}"
-    p, name = min((each.mann_whitney_p, name) for name, each in results.comparisons.items())
+    p, name = min((comparison.mann_whitney_p, name) for name, comparison in results.comparisons.items())
     if p >= LEVEL:
         return (
             f"No difference between the conditions can be claimed (smallest p of all comparisons, runs being "

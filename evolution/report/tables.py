@@ -1,4 +1,7 @@
-"""The main table of the report: everything the paper gives a number or a word for, beside ours."""
+"""The tables of the report: the paper's numbers beside ours, Table II, runs, tests between conditions.
+
+The main table has everything the paper gives a number or a word for.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +12,24 @@ from typing import Final
 import numpy as np
 
 from arm2d import Condition
-from evolution.agents.subtasks import SUBTASKS, AgentClass
+from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS, AgentClass
+from evolution.figures.classes import SHORT
+from evolution.report.columns import PlainTable
+from evolution.report.rows import BothTests, both_tests
 from evolution.results import published
-from evolution.results.generaliser_text import longest_spell, rank_of_generalisers
-from evolution.results.records import ConditionResults, Results
-from evolution.results.wording import NOT_GIVEN, Line, of, percent
+from evolution.results.records import AnalysedRun, ConditionResults, Results
+from evolution.results.statistics import Comparison
+from evolution.results.wording import (
+    NOT_GIVEN,
+    TITLES,
+    Line,
+    longest_spell,
+    of,
+    p_value,
+    percent,
+    points,
+    rank_of_generalisers,
+)
 
 SUBTASK_WORDS: Final = MappingProxyType(
     {
@@ -40,94 +56,168 @@ PUBLISHED_TRANSITIONS: Final = MappingProxyType(
 )
 
 
+Pair = Callable[[ConditionResults], tuple[str, str]]
+
+
 def main_lines(results: Results) -> list[Line]:
     """Everything the paper gives a number or a word for, but Table II's other categories."""
-    shown = list(results.conditions.items())
-
-    def line(what: str, pair: Callable[[Condition, ConditionResults], tuple[str, str]]) -> Line:
-        return Line(what, tuple(pair(condition, each) for condition, each in shown))
-
-    lines = [
-        line("runs that end at the largest fitness, 18/7", _plateau_runs),
-        line("best fitness at the end of a run", _plateau),
-        line("runs in which one genotype solved all 28 trials", _solved),
-        line("runs with fully compositional agents", _runs_with_generalisers),
-        line("most of them among the five best of a generation", _most_generalisers),
-        line("their mean rank among the five best, from 0 to 4", _rank_of_generalisers),
-        line("most generations in a row in which a run has one", _longest_spell),
-    ]
-    for index, name in enumerate(SUBTASKS):
-        what = f"agents in category 10 of sub-task {name}: {SUBTASK_WORDS[name]}"
-        lines.append(line(what, lambda c, each, i=index: _top_share(c, each, i)))
+    pairs: dict[str, Pair] = {
+        "runs that end at the largest fitness, 18/7": _plateau_runs,
+        "best fitness at the end of a run": _plateau,
+        "runs in which one genotype solved all 28 trials": _solved,
+        "runs with fully compositional agents": _runs_with_generalisers,
+        "most of them among the five best of a generation": _most_generalisers,
+        "their mean rank among the five best, from 0 to 4": lambda found: (
+            NOT_GIVEN,
+            rank_of_generalisers(found),
+        ),
+        "most generations in a row in which a run has one": lambda found: (NOT_GIVEN, longest_spell(found)),
+    }
+    for subtask, words in SUBTASK_WORDS.items():
+        pairs[f"agents in category 10 of sub-task {subtask}: {words}"] = _top_share(subtask)
     for kind in AgentClass:
-        for test, word in enumerate(("action", "object")):
-            what = f"{kind} agents that pass the {word} transition"
-            lines.append(line(what, lambda c, each, k=kind, t=test: _passed(c, each, k, t)))
-    return lines
+        pairs[f"{kind} agents that pass the action transition"] = _passed_action(kind)
+        pairs[f"{kind} agents that pass the object transition"] = _passed_object(kind)
+    return [
+        Line(what, tuple(pair(found) for found in results.conditions.values()))
+        for what, pair in pairs.items()
+    ]
 
 
-def _plateau_runs(condition: Condition, each: ConditionResults) -> tuple[str, str]:
-    return of(published.RUNS, published.RUNS), of(each.at_plateau, len(each.runs))
+def _plateau_runs(found: ConditionResults) -> tuple[str, str]:
+    return of(published.RUNS, published.RUNS), of(found.at_plateau, len(found.runs))
 
 
-def _plateau(condition: Condition, each: ConditionResults) -> tuple[str, str]:
+def _plateau(found: ConditionResults) -> tuple[str, str]:
     paper = f"about {published.PLATEAU}"
-    if not len(each.runs):
+    if not len(found.runs):
         return paper, "no run"
-    low, middle, high = np.quantile(each.plateau, [0, 0.5, 1])
-    if len(each.runs) == 1:
+    low, middle, high = np.quantile(found.plateau, [0, 0.5, 1])
+    if len(found.runs) == 1:
         return paper, f"{middle:.2f}"
     return paper, f"{low:.2f} to {high:.2f}, median {middle:.2f}"
 
 
-def _solved(condition: Condition, each: ConditionResults) -> tuple[str, str]:
-    solved = int((each.first_solved >= 0).sum())
-    return NOT_GIVEN, of(solved, len(each.runs)) + first_seeds(each.seeds, each.first_solved)
+def _solved(found: ConditionResults) -> tuple[str, str]:
+    solved = int((found.first_solved >= 0).sum())
+    return NOT_GIVEN, of(solved, len(found.runs)) + first_seeds(found.seeds, found.first_solved)
 
 
-def _runs_with_generalisers(condition: Condition, each: ConditionResults) -> tuple[str, str]:
-    known = condition is Condition.WITH_INDICATE
+def _runs_with_generalisers(found: ConditionResults) -> tuple[str, str]:
+    known = found.condition is Condition.WITH_INDICATE
     paper = of(published.RUNS_WITH_GENERALISERS, published.RUNS) if known else NOT_GIVEN
-    return paper, of(runs_with_generalisers(each), len(each.runs))
+    return paper, of(runs_with_generalisers(found), len(found.runs))
 
 
-def runs_with_generalisers(each: ConditionResults) -> int:
+def runs_with_generalisers(found: ConditionResults) -> int:
     """Runs in which some agent is fully compositional."""
-    return int((each.members[AgentClass.FULL] > 0).sum())
+    return int((found.members[AgentClass.FULL] > 0).sum())
 
 
-def _most_generalisers(condition: Condition, each: ConditionResults) -> tuple[str, str]:
-    paper = "one or two" if condition is Condition.WITH_INDICATE else NOT_GIVEN
-    return paper, str(max(int(found.counts.max()) for found in each.generalisers)) if each.runs else "no run"
+def _most_generalisers(found: ConditionResults) -> tuple[str, str]:
+    paper = "one or two" if found.condition is Condition.WITH_INDICATE else NOT_GIVEN
+    most = [int(run.counts.max()) for run in found.generalisers]
+    return paper, str(max(most)) if most else "no run"
 
 
-def _rank_of_generalisers(condition: Condition, each: ConditionResults) -> tuple[str, str]:
-    return NOT_GIVEN, rank_of_generalisers(each)
+def _top_share(subtask: str) -> Pair:
+    column = SUBTASKS.index(subtask)
+
+    def pair(found: ConditionResults) -> tuple[str, str]:
+        theirs, ours = published.TABLE_II[found.condition][-1, column], found.counts[-1, column]
+        paper = f"{percent(theirs / published.AGENTS)} ({theirs:,})"
+        return paper, f"{percent(ours / found.n_agents)} ({ours:,})" if found.n_agents else "no run"
+
+    return pair
 
 
-def _longest_spell(condition: Condition, each: ConditionResults) -> tuple[str, str]:
-    return NOT_GIVEN, longest_spell(each)
+def _passed_action(kind: AgentClass) -> Pair:
+    def pair(found: ConditionResults) -> tuple[str, str]:
+        paper, _ = PUBLISHED_TRANSITIONS[found.condition][kind]
+        outcome = found.transitions[kind]
+        return paper, _passed(outcome.agents, outcome.action_passed, outcome.runs_action)
+
+    return pair
 
 
-def _top_share(condition: Condition, each: ConditionResults, column: int) -> tuple[str, str]:
-    theirs, ours = published.TABLE_II[condition][-1, column], each.counts[-1, column]
-    return (
-        f"{percent(theirs / published.AGENTS)} ({theirs:,})",
-        f"{percent(ours / each.n_agents)} ({ours:,})" if each.n_agents else "no run",
-    )
+def _passed_object(kind: AgentClass) -> Pair:
+    def pair(found: ConditionResults) -> tuple[str, str]:
+        _, paper = PUBLISHED_TRANSITIONS[found.condition][kind]
+        outcome = found.transitions[kind]
+        return paper, _passed(outcome.agents, outcome.object_passed, outcome.runs_object)
+
+    return pair
 
 
-def _passed(condition: Condition, each: ConditionResults, kind: AgentClass, test: int) -> tuple[str, str]:
-    outcome = each.transitions[kind]
-    action = (outcome.action_passed, outcome.runs_action)
-    object_ = (outcome.object_passed, outcome.runs_object)
-    passed, runs = object_ if test else action
+def _passed(agents: int, passed: int, runs: int) -> str:
+    """How many agents of a class pass, and in how many runs."""
     in_runs = f", in {runs} run{'s' if runs != 1 else ''}" if passed else ""
-    ours = of(passed, outcome.agents) + in_runs if outcome.agents else "no such agent"
-    return PUBLISHED_TRANSITIONS[condition][kind][test], ours
+    return of(passed, agents) + in_runs if agents else "no such agent"
 
 
 def first_seeds(seeds: Iterable[int], generations: Iterable[int]) -> str:
     """Such as " (seed 7: generation 2,179)"; nothing if there is none."""
     found = [f"seed {s}: generation {g:,}" for s, g in zip(seeds, generations, strict=True) if g >= 0]
     return f" ({', '.join(found)})" if found else ""
+
+
+def category_tables(results: Results) -> list[tuple[str, list[Line]]]:
+    """Table II: for each condition agents by category, with a (paper, ours) pair for each sub-task."""
+    tables = []
+    for condition, found in results.conditions.items():
+        lines = []
+        for category in range(N_CATEGORIES):
+            pairs = zip(published.TABLE_II[condition][category], found.counts[category], strict=True)
+            texts = tuple((f"{theirs:,}", f"{ours:,}") for theirs, ours in pairs)
+            lines.append(Line(_category(category), texts))
+        tables.append((TITLES[condition], lines))
+    return tables
+
+
+def shown_runs(results: Results) -> PlainTable[AnalysedRun]:
+    """Every analysed run: its plateau, when it solved all, agents by class and in category 10."""
+
+    def members(kind: AgentClass) -> Callable[[AnalysedRun], str]:
+        return lambda run: f"{run.members(kind):,}"
+
+    def in_top(subtask: str) -> Callable[[AnalysedRun], str]:
+        return lambda run: f"{run.in_top(subtask):,}"
+
+    return PlainTable(
+        {
+            "run": lambda run: f"{TITLES[run.condition]}, seed {run.seed}",
+            "plateau": lambda run: f"{run.plateau:.3f}",
+            "solved all 28": lambda run: run.first_solved_in_words("{:,}"),
+            **{short: members(kind) for kind, short in SHORT.items()},
+            **{subtask: in_top(subtask) for subtask in SUBTASKS},
+        },
+        results.analysed_runs,
+    )
+
+
+def shown_tests(results: Results) -> PlainTable[BothTests]:
+    """Comparisons of the conditions: shares, difference, interval, and the tests."""
+    first, second = (TITLES[condition] for condition in Condition)
+    return PlainTable(
+        {
+            "share of a run’s agents": lambda both: both.name,  # noqa: RUF001 - as printed
+            first: lambda both: percent(both.sound.means[0]),
+            second: lambda both: percent(both.sound.means[1]),
+            "difference, points [95 %]": lambda both: _with_interval(both.sound),
+            "Mann-Whitney p": lambda both: p_value(both.sound.mann_whitney_p),
+            "permutation p": lambda both: p_value(both.sound.permutation_p),
+            "Cliff’s delta": lambda both: f"{both.sound.cliffs_delta:+.2f}",  # noqa: RUF001 - as printed
+            "paper’s kind, p": lambda both: p_value(both.published_p),  # noqa: RUF001 - as printed
+        },
+        both_tests(results),
+    )
+
+
+def _with_interval(sound: Comparison) -> str:
+    """A difference in percentage points with its interval."""
+    low, high = sound.interval
+    return f"{points(sound.difference)} [{points(low)}, {points(high)}]"
+
+
+def _category(category: int) -> str:
+    return "0" if category == 0 else f"{category} ({8 * (category - 1) + 1} to {8 * category})"

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from arm2d import Condition
 from evolution.agents.postevaluation import N_INSTRUCTIONS, TRIALS
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS, AgentClass, categories, classify, count_table
-from evolution.agents.transition_test import CLASSES, TransitionTest
-from evolution.agents.transitions import passes
+from evolution.agents.transitions import CLASSES, TransitionTest, passes
 from evolution.experiments.experiment import Experiment
 from evolution.results.comparisons import compare_conditions
 from evolution.results.generalisers import generalisers_of
@@ -43,6 +42,18 @@ def analyse(experiment: Experiment) -> Results:
     return Results(experiment, conditions, comparisons, published)
 
 
+def check_some_tested(results: Results) -> None:
+    """Refuse an analysis without a single run.
+
+    Raises:
+        ValueError: With what the first run lacks, and the command that makes it.
+    """
+    if not any(len(each.runs) for each in results.conditions.values()):
+        first, others = results.missing[0], len(results.missing) - 1
+        more = f" (likewise {others} more)" if others else ""
+        raise ValueError(f"{results.experiment.path} has no run that can be analysed: {first}{more}")
+
+
 def interval_of_mean(values: NDArray[np.float64]) -> tuple[float, float]:
     """95 % bootstrap interval of the mean over runs, the same whenever it is asked for."""
     return mean_interval(values, generator(0, Purpose.STATISTICS))
@@ -50,32 +61,31 @@ def interval_of_mean(values: NDArray[np.float64]) -> tuple[float, float]:
 
 def _analyse_condition(condition: Condition, runs: tuple[RunFolder, ...]) -> ConditionResults:
     tested, missing = read_tested_runs(runs)
-    best = np.stack([each.best for each in tested]) if tested else np.empty((0, 0))
+    best = np.stack([run.best for run in tested]) if tested else np.empty((0, 0))
     generations, successes = _late_successes(tested)
-    agents = [each.evaluation.agents for each in tested]
-    tables = [count_table(categories(each, condition)) for each in agents]
+    agents = [run.evaluation.agents for run in tested]
+    tables = [count_table(categories(own, condition)) for own in agents]
     counts_per_run = np.array(tables, np.int64).reshape(len(tested), N_CATEGORIES, len(SUBTASKS))
-    classes = [classify(each, condition) for each in agents]
-    full = [each[AgentClass.FULL].reshape(-1, N_BEST) for each in classes]
+    classes = [classify(own, condition) for own in agents]
+    full = [members[AgentClass.FULL].reshape(-1, N_BEST) for members in classes]
     return ConditionResults(
         condition=condition,
-        runs=tuple(each.run for each in tested),
-        seeds=np.array([each.run.config.seed for each in tested], np.int64),
+        runs=tuple(run.run for run in tested),
+        seeds=np.array([run.run.config.seed for run in tested], np.int64),
         best=best,
         plateau=_plateaus(best),
-        first_solved=np.array([each.first_solved for each in tested], np.int64),
-        genotypes=np.array([each.genotypes for each in tested], np.int64),
-        longest_stay=np.array([each.longest_stay for each in tested], np.int64),
+        first_solved=np.array([run.first_solved for run in tested], np.int64),
+        genotypes=np.array([run.genotypes for run in tested], np.int64),
+        longest_stay=np.array([run.longest_stay for run in tested], np.int64),
         generations=generations,
         successes=successes,
         counts=counts_per_run.sum(axis=0),
         counts_per_run=counts_per_run,
-        members={c: np.array([each[c].sum() for each in classes], np.int64) for c in AgentClass},
+        members={c: np.array([own[c].sum() for own in classes], np.int64) for c in AgentClass},
         generalisers=tuple(
-            generalisers_of(each.run, generations, members)
-            for each, members in zip(tested, full, strict=True)
+            generalisers_of(run.run, generations, members) for run, members in zip(tested, full, strict=True)
         ),
-        transitions=_transition_outcomes([each.transitions for each in tested]),
+        transitions=_transition_outcomes([run.transitions for run in tested]),
         missing=tuple(missing),
     )
 
@@ -90,24 +100,24 @@ def _late_successes(tested: list[TestedRun]) -> tuple[NDArray[np.int32], NDArray
     """(late generations [L], successes [R, L, 5, 9])."""
     if not tested:
         return np.empty(0, np.int32), np.empty((0, 0, N_BEST, N_INSTRUCTIONS), np.int16)
-    return tested[0].evaluation.generations, np.stack([each.evaluation.successes for each in tested])
+    return tested[0].evaluation.generations, np.stack([run.evaluation.successes for run in tested])
 
 
 def _transition_outcomes(tests: list[TransitionTest]) -> dict[AgentClass, TransitionOutcome]:
     """What each class made of the tests, over all runs."""
     outcomes = {}
     for index, members in enumerate(CLASSES):
-        own = [(each.action[each.classes == index], each.object[each.classes == index]) for each in tests]
+        own = [(test.action[test.classes == index], test.object[test.classes == index]) for test in tests]
         passed = [(passes(action), passes(object_)) for action, object_ in own]
         action, object_ = (_mean_share([pair[test] for pair in own]) for test in (0, 1))
         outcomes[members] = TransitionOutcome(
-            agents=sum(len(each) for each, _ in own),
-            action_passed=sum(int(each.sum()) for each, _ in passed),
-            object_passed=sum(int(each.sum()) for _, each in passed),
+            agents=sum(len(agents) for agents, _ in own),
+            action_passed=sum(int(agents.sum()) for agents, _ in passed),
+            object_passed=sum(int(agents.sum()) for _, agents in passed),
             action_success=action,
             object_success=object_,
-            runs_action=sum(bool(each.any()) for each, _ in passed),
-            runs_object=sum(bool(each.any()) for _, each in passed),
+            runs_action=sum(bool(agents.any()) for agents, _ in passed),
+            runs_object=sum(bool(agents.any()) for _, agents in passed),
         )
     return outcomes
 

@@ -5,20 +5,19 @@ Axes: R runs that have agents of the class, 9 instructions, W windows, E events,
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition
-from evolution.agents.classes import CLASSES, PARTS, Observation, Sampling
-from evolution.agents.events import WINDOWS
+from arm2d.records import brief
+from evolution.agents.classes import CLASSES, PARTS, Observation
 from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass
-from evolution.results.statistics import mean_interval
+from evolution.agents.variance import WINDOWS
 from evolution.runs.folder import RunFolder
-from evolution.search.randomness import Purpose, generator
 
 INTACT = "intact"
 
@@ -52,10 +51,12 @@ class ClassBehaviour:
     shares: NDArray[np.float64]
     representative: tuple[RunFolder, int, int] | None
 
+    __repr__ = brief
+
     @property
     def known(self) -> NDArray[np.bool_]:
         """[9], which instructions were met during evolution."""
-        return np.array([each not in NON_EXPERIENCED for each in self.condition.instructions])
+        return np.array([word not in NON_EXPERIENCED for word in self.condition.instructions])
 
     def success(self, *, known: bool) -> NDArray[np.float64]:
         """Mean success of the experienced (or the never-met) instructions, intact and lesioned, [R, 9]."""
@@ -71,46 +72,27 @@ def class_behaviours(
     return {kind: _class_behaviour(condition, kind, observed) for kind in CLASSES}
 
 
-def measures(each: ClassBehaviour) -> Iterable[tuple[str, NDArray[np.float64]]]:
-    """(name, one value per run [R]) of everything that is measured; NaN where a run has none."""
-    for w, window in enumerate(WINDOWS):
-        for p, part in enumerate(PARTS):
-            yield f"share of variance, {part}, {window}", each.windows[:, w, p]
+def measures() -> dict[str, Callable[[ClassBehaviour], NDArray[np.float64]]]:
+    """Everything that is measured: one value per run of a class [R], NaN where a run has none."""
+
+    def share(window: int, part: int) -> Callable[[ClassBehaviour], NDArray[np.float64]]:
+        return lambda behaviour: behaviour.windows[:, window, part]
+
+    def success(known: bool, column: int) -> Callable[[ClassBehaviour], NDArray[np.float64]]:
+        return lambda behaviour: behaviour.success(known=known)[:, column]
+
+    shares = {
+        f"share of variance, {part}, {window}": share(w, p)
+        for w, window in enumerate(WINDOWS)
+        for p, part in enumerate(PARTS)
+    }
     names = [INTACT, *(f"{lesion.word} word {lesion.manner} {lesion.time}" for lesion in LESIONS)]
-    for known, of_what in ((True, "experienced"), (False, "never met")):
-        for column, name in enumerate(names):
-            yield f"success, {of_what}, {name}", each.success(known=known)[:, column]
-
-
-def class_rows(behaviours: Iterable[ClassBehaviour], sampling: Sampling) -> Iterable[Sequence[object]]:
-    """One row per condition, class and measure: mean over runs, their range, and its bootstrap interval."""
-    yield (
-        "condition", "class", "measure", "runs", "agents observed", "agents in the class", "trials each",
-        "mean over runs", "95 % low", "95 % high", "lowest run", "highest run",
-    )  # fmt: skip
-    for each in behaviours:
-        numbers = (int(each.agents.sum()), int(each.members.sum()), 2 * sampling.per_area * 9)
-        for name, values in measures(each):
-            yield (str(each.condition), str(each.kind), name, *_summary(values, numbers))
-
-
-def run_class_rows(behaviours: Iterable[ClassBehaviour]) -> Iterable[Sequence[object]]:
-    """One row per condition, class and run, with every measure."""
-    head = None
-    for each in behaviours:
-        named = list(measures(each))
-        if head is None:
-            head = ("condition", "class", "seed", "agents observed", "agents in the class")
-            yield (*head, *(name for name, _ in named))
-        for run, seed in enumerate(each.seeds):
-            counts = (int(each.agents[run]), int(each.members[run]))
-            yield (
-                str(each.condition),
-                str(each.kind),
-                int(seed),
-                *counts,
-                *(_text(v[run]) for _, v in named),
-            )
+    successes = {
+        f"success, {of_what}, {name}": success(known, column)
+        for known, of_what in ((True, "experienced"), (False, "never met"))
+        for column, name in enumerate(names)
+    }
+    return {**shares, **successes}
 
 
 def _class_behaviour(
@@ -163,16 +145,3 @@ def _nanmean(values: NDArray[np.float64]) -> NDArray[np.float64]:
     n = there.sum(axis=0)
     total = np.where(there, values, 0.0).sum(axis=0)
     return np.divide(total, n, out=np.full(total.shape, np.nan), where=n > 0)
-
-
-def _summary(values: NDArray[np.float64], numbers: tuple[int, ...]) -> tuple[object, ...]:
-    """Runs, the numbers given, mean, interval and range."""
-    found = values[np.isfinite(values)]
-    if not len(found):
-        return (0, *numbers, "", "", "", "", "")
-    interval = mean_interval(found, generator(0, Purpose.STATISTICS)) if len(found) > 1 else (np.nan, np.nan)
-    return (len(found), *numbers, *map(_text, (found.mean(), *interval, found.min(), found.max())))
-
-
-def _text(value: float) -> str:
-    return f"{value:.4f}" if np.isfinite(value) else ""

@@ -24,7 +24,7 @@ def compare_conditions(
     """
     comparisons: dict[str, Comparison] = {}
     published: dict[str, tuple[float, float]] = {}
-    if all(len(each.runs) for each in conditions.values()) and len(conditions) == len(Condition):
+    if all(len(found.runs) for found in conditions.values()) and len(conditions) == len(Condition):
         rng = generator(0, Purpose.STATISTICS)
         for name, (first, second) in _compared(conditions).items():
             comparisons[name] = compare(first, second, rng)
@@ -34,11 +34,12 @@ def compare_conditions(
 
 def _compared(conditions: Mapping[Condition, ConditionResults]) -> dict[str, list[NDArray[np.float64]]]:
     """One number per run, by what is compared; With-Indicate first."""
-    ordered = [conditions[each] for each in Condition]
+    ordered = [conditions[condition] for condition in Condition]
     shares = {
-        f"sub-task {name}, category 10": [each.share_in_top(name) for each in ordered] for name in SUBTASKS
+        f"sub-task {name}, category 10": [results.share_in_top(name) for results in ordered]
+        for name in SUBTASKS
     }
-    classes = {f"{kind} agents": [each.share_of_class(kind) for each in ordered] for kind in AgentClass}
+    classes = {f"{kind} agents": [results.share_of_class(kind) for results in ordered] for kind in AgentClass}
     return {**shares, **classes}
 
 
@@ -49,7 +50,7 @@ def _per_generation(
 
     def shares(results: ConditionResults) -> NDArray[np.float64]:
         agents = results.successes.swapaxes(0, 1).reshape(len(results.generations), -1, N_INSTRUCTIONS)
-        return np.array([_share(each, name, results.condition) for each in agents])
+        return np.array([_share(generation, name, results.condition) for generation in agents])
 
     return shares(conditions[Condition.WITH_INDICATE]), shares(conditions[Condition.WITH_IGNORE])
 
@@ -59,5 +60,5 @@ def _share(successes: NDArray[np.int16], name: str, condition: Condition) -> flo
     for index, subtask in enumerate(SUBTASKS):
         if name == f"sub-task {subtask}, category 10":
             return float((categories(successes, condition)[:, index] == 10).mean())
-    kind = next(each for each in AgentClass if name == f"{each} agents")
+    kind = next(kind for kind in AgentClass if name == f"{kind} agents")
     return float(classify(successes, condition)[kind].mean())

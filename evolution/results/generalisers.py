@@ -19,7 +19,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.agents.postevaluation import late_history
+from arm2d.records import brief
+from evolution.agents.parts import late_history
 from evolution.results.statistics import sign_flip_test
 from evolution.runs.folder import RunFolder
 from evolution.search.algorithm import rank as ranking
@@ -52,6 +53,8 @@ class Generalisers:
     stays: NDArray[np.int64]
     verdicts: NDArray[np.int64]
     longest_line: int
+
+    __repr__ = brief
 
     def __len__(self) -> int:
         return len(self.ranks)
@@ -116,7 +119,7 @@ def longest_line(
     longest = 0
     for row, who in enumerate(members):
         own = indices[row, who]
-        lengths = {int(each): 1 + lengths.get(int(parents[row, each]), 0) for each in own}
+        lengths = {int(index): 1 + lengths.get(int(parents[row, index]), 0) for index in own}
         longest = max([longest, *lengths.values()])
     return longest
 
@@ -127,7 +130,7 @@ def mean_rank_against_chance(runs: Sequence[Generalisers]) -> tuple[float, float
     The run is the unit: within one, agents are relatives. Chance is `CHANCE_RANK`; an exact sign-flip test
     over runs cannot reach 0.05 with fewer than six runs.
     """
-    means = np.array([each.ranks.mean() for each in runs if len(each)])
+    means = np.array([run.ranks.mean() for run in runs if len(run)])
     if not len(means):
         return float("nan"), float("nan")
     return float(means.mean()), sign_flip_test(means - CHANCE_RANK)

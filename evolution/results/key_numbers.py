@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings
+from arm2d.records import brief
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.results import published
 from evolution.results.records import ConditionResults, Results
@@ -38,6 +39,8 @@ class KeyNumber:
     of: int
     runs: NDArray[np.float64]
 
+    __repr__ = brief
+
 
 def top_name(subtask: str) -> str:
     """Name of the share of agents in category 10 of a sub-task."""
@@ -54,45 +57,29 @@ def class_name(kind: AgentClass) -> str:
     return f"share of {kind} agents"
 
 
-def key_numbers(each: ConditionResults) -> list[KeyNumber]:
+def key_numbers(found: ConditionResults) -> list[KeyNumber]:
     """All key numbers of a condition."""
-    n, indicate = len(each.runs), each.condition is Condition.WITH_INDICATE
-    full = each.members[AgentClass.FULL] > 0
+    n, indicate = len(found.runs), found.condition is Condition.WITH_INDICATE
+    full = found.members[AgentClass.FULL] > 0
     with_full = float(published.RUNS_WITH_GENERALISERS) if indicate else None
     numbers = [
         KeyNumber(
-            PLATEAU, published.PLATEAU, float(np.median(each.plateau)) if n else np.nan, n, each.plateau
+            PLATEAU, published.PLATEAU, float(np.median(found.plateau)) if n else np.nan, n, found.plateau
         ),
-        _count(AT_LIMIT, float(published.RUNS), each.at_plateau, n),
-        _count(SOLVED, None, int((each.first_solved >= 0).sum()), n),
+        _count(AT_LIMIT, float(published.RUNS), found.at_plateau, n),
+        _count(SOLVED, None, int((found.first_solved >= 0).sum()), n),
         _count(WITH_FULL, with_full, int(full.sum()), n),
     ]
     for column, name in enumerate(SUBTASKS):
-        theirs = published.TABLE_II[each.condition][-1, column] / published.AGENTS
-        numbers.append(_share(top_name(name), float(theirs), each.share_in_top(name), each.n_agents))
+        theirs = published.TABLE_II[found.condition][-1, column] / published.AGENTS
+        numbers.append(_share(top_name(name), float(theirs), found.share_in_top(name), found.n_agents))
     for kind in AgentClass:
-        numbers.append(_share(class_name(kind), None, each.share_of_class(kind), each.n_agents))
-    for kind, outcome in each.transitions.items():
+        numbers.append(_share(class_name(kind), None, found.share_of_class(kind), found.n_agents))
+    for kind, outcome in found.transitions.items():
         for word, passed in (("action", outcome.action_passed), ("object", outcome.object_passed)):
             ours = passed / outcome.agents if outcome.agents else np.nan
             numbers.append(KeyNumber(pass_name(kind, word), None, ours, outcome.agents, np.empty(0)))
     return numbers
-
-
-def comparison_rows(experiments: Mapping[str, Results]) -> Iterable[Sequence[object]]:
-    """A row for each condition and key number: the paper's, then ours and of how many, by experiment."""
-    heads = [
-        f"{name}{what}" for name in experiments for what in ("", ", of", ", lowest run", ", highest run")
-    ]
-    yield ("condition", "number", "published", *heads)
-    for condition, by_name in by_condition(experiments).items():
-        some = next(iter(by_name.values()))
-        for place, number in enumerate(some):
-            cells = []
-            for name in experiments:
-                own = by_name[name][place] if name in by_name else None
-                cells += _cells(own)
-            yield (str(condition), number.name, _text(number.published), *cells)
 
 
 def by_condition(experiments: Mapping[str, Results]) -> dict[Condition, dict[str, list[KeyNumber]]]:
@@ -122,17 +109,3 @@ def _count(name: str, theirs: float | None, ours: int, n: int) -> KeyNumber:
 
 def _share(name: str, theirs: float | None, runs: NDArray[np.float64], n_agents: int) -> KeyNumber:
     return KeyNumber(name, theirs, float(runs.mean()) if len(runs) else np.nan, n_agents, runs)
-
-
-def _cells(number: KeyNumber | None) -> list[str]:
-    """The number, of how many, and its range over runs."""
-    if number is None:
-        return [""] * 4
-    ends = (number.runs.min(), number.runs.max()) if len(number.runs) else (None, None)
-    return [_text(number.ours), str(number.of), *map(_text, ends)]
-
-
-def _text(value: float | None) -> str:
-    if value is None or np.isnan(value):
-        return ""
-    return f"{value:.4f}".rstrip("0").rstrip(".")

@@ -1,20 +1,31 @@
-"""Single agents of an experiment that are worth looking at."""
+"""Single agents of an experiment that are worth looking at, and keeping by name as small files.
+
+    best-generaliser   With-Indicate: the agent whose least-mastered instruction of all nine succeeds most
+    best-specialist    With-Indicate: masters the experienced instructions best, never a never-met one
+    with-ignore        With-Ignore: as best-generaliser
+
+`wordarm evaluate`, `wordarm port` and `find_agent` take these names.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import NON_EXPERIENCED
-from evolution.agents.postevaluation import N_INSTRUCTIONS
-from evolution.results.records import ConditionResults
+from arm2d import NON_EXPERIENCED, Condition
+from arm2d.records import brief
+from evolution.agents.postevaluation import N_INSTRUCTIONS, TRIALS
+from evolution.results.records import ConditionResults, Results
 from evolution.runs.folder import RunFolder
+from evolution.runs.recorded import recorded_generation
+from evolution.runs.storage import make_folder, write_arrays
 
 
 @dataclass(frozen=True)
-class Agent:
+class NotableAgent:
     """One agent of an experiment, and what it made of nine instructions.
 
     Attributes:
@@ -29,26 +40,68 @@ class Agent:
     rank: int
     successes: NDArray[np.int16]
 
+    __repr__ = brief
 
-def best_agent(results: ConditionResults) -> Agent | None:
+
+def best_agent(results: ConditionResults) -> NotableAgent | None:
     """The agent whose least-mastered instruction of all nine succeeds most; then the most successes."""
     return _first_by(results, results.successes.min(axis=-1), results.successes.sum(axis=-1))
 
 
-def best_specialist(results: ConditionResults) -> Agent | None:
+def best_specialist(results: ConditionResults) -> NotableAgent | None:
     """The agent that masters the experienced instructions best and never a never-met one."""
-    order = [results.condition.instructions.index(each) for each in NON_EXPERIENCED]
+    order = [results.condition.instructions.index(word) for word in NON_EXPERIENCED]
     known = [i for i in range(N_INSTRUCTIONS) if i not in order]
     untouched = (results.successes[..., order] == 0).all(axis=-1)
     skills = results.successes[..., known]
     return _first_by(results, untouched, skills.min(axis=-1), skills.sum(axis=-1))
 
 
-def _first_by(results: ConditionResults, *keys: NDArray) -> Agent | None:
+def notable_agents(results: Results) -> dict[str, NotableAgent]:
+    """The agents to be kept, by name, as far as there are any."""
+    indicate = results.conditions.get(Condition.WITH_INDICATE)
+    ignore = results.conditions.get(Condition.WITH_IGNORE)
+    found = {
+        "best-generaliser": indicate and best_agent(indicate),
+        "best-specialist": indicate and best_specialist(indicate),
+        "with-ignore": ignore and best_agent(ignore),
+    }
+    return {name: agent for name, agent in found.items() if agent is not None}
+
+
+def ship(results: Results, folder: Path) -> list[Path]:
+    """Write the notable agents of an experiment; their paths."""
+    make_folder(folder)
+    paths = []
+    for name, agent in notable_agents(results).items():
+        paths.append(folder / f"{name}.npz")
+        _write(agent, paths[-1])
+    return paths
+
+
+def _first_by(results: ConditionResults, *keys: NDArray) -> NotableAgent | None:
     """The agent with the largest keys, the first counting most; the earliest of equals."""
     if not results.successes.size:
         return None
     index = np.lexsort([-key.reshape(-1).astype(np.int64) for key in reversed(keys)])[0]
     run, late, rank = np.unravel_index(index, results.successes.shape[:3])
     successes = results.successes[run, late, rank]
-    return Agent(results.runs[run], int(results.generations[late]), int(rank), successes)
+    return NotableAgent(results.runs[run], int(results.generations[late]), int(rank), successes)
+
+
+def _write(agent: NotableAgent, path: Path) -> None:
+    """One agent, with the config of its run and what it made of the nine instructions."""
+    config = agent.run.config
+    genotypes = recorded_generation(agent.run, agent.generation).best_genotypes[0]
+    write_arrays(
+        path,
+        {
+            "genotypes": genotypes[agent.rank : agent.rank + 1],
+            "generations": np.array([agent.generation]),
+            "ranks": np.array([agent.rank]),
+            "instructions": np.array([str(word) for word in config.condition.instructions]),
+            "trials_per_instruction": np.array(TRIALS),
+            "successes": agent.successes[np.newaxis],
+            "config": np.array(config.to_toml()),
+        },
+    )

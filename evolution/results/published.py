@@ -12,7 +12,6 @@ from arm2d import Condition
 AGENTS: Final = 100_000  # of each condition
 RUNS: Final = 10  # of each condition
 PLATEAU: Final = 2.57  # best fitness at which all runs of both conditions end (Fig. 3)
-LARGEST_FITNESS: Final = 18 / 7
 RUNS_WITH_GENERALISERS: Final = 6  # of ten; With-Indicate
 
 # Table II: agents by category (rows 0 to 10) and sub-task (columns I to IV).

@@ -10,19 +10,25 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from arm2d import Condition
+from arm2d.records import brief
+from evolution.agents.firsts import NEVER
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.experiments.experiment import Experiment
 from evolution.results.generalisers import Generalisers
 from evolution.results.statistics import Comparison
 from evolution.runs.folder import RunFolder
-from evolution.search.settings import N_BEST
+from evolution.search.settings import LARGEST_FITNESS, N_BEST
 
-# Runs whose plateau comes so near to 18/7 count as having reached the paper's 2.57.
+# Runs whose plateau comes so near to the largest fitness count as having reached the paper's 2.57.
 PLATEAU_TOLERANCE: Final = 0.02
-FITNESS_LIMIT: Final = 18 / 7
+
+
+def ends_at_largest(plateau: ArrayLike) -> NDArray[np.bool_]:
+    """Whether runs with these plateaus end at the paper's 2.57."""
+    return np.asarray(plateau) >= LARGEST_FITNESS - PLATEAU_TOLERANCE
 
 
 @dataclass(frozen=True)
@@ -46,6 +52,8 @@ class TransitionOutcome:
     object_success: NDArray[np.float64]
     runs_action: int
     runs_object: int
+
+    __repr__ = brief
 
 
 @dataclass(frozen=True)
@@ -88,6 +96,8 @@ class ConditionResults:
     transitions: Mapping[AgentClass, TransitionOutcome]
     missing: tuple[str, ...]
 
+    __repr__ = brief
+
     @property
     def n_agents(self) -> int:
         """All post-evaluated agents."""
@@ -96,7 +106,7 @@ class ConditionResults:
     @property
     def at_plateau(self) -> int:
         """Runs that end at the paper's 2.57."""
-        return int((self.plateau >= FITNESS_LIMIT - PLATEAU_TOLERANCE).sum())
+        return int(ends_at_largest(self.plateau).sum())
 
     def share_in_top(self, subtask: str) -> NDArray[np.float64]:
         """Share of each run's agents in category 10 of a sub-task, [R]."""
@@ -106,6 +116,66 @@ class ConditionResults:
     def share_of_class(self, members: AgentClass) -> NDArray[np.float64]:
         """Share of each run's agents in a class, [R]."""
         return self.members[members] / (len(self.generations) * N_BEST)
+
+
+@dataclass(frozen=True)
+class AnalysedRun:
+    """One run of the results of its condition.
+
+    Attributes:
+        results: Of the condition.
+        index: Of the run, in there.
+    """
+
+    results: ConditionResults
+    index: int
+
+    @property
+    def condition(self) -> Condition:
+        """Its condition."""
+        return self.results.condition
+
+    @property
+    def seed(self) -> int:
+        """Its seed."""
+        return int(self.results.seeds[self.index])
+
+    @property
+    def plateau(self) -> float:
+        """Median best fitness at its end."""
+        return float(self.results.plateau[self.index])
+
+    @property
+    def genotypes(self) -> int:
+        """Distinct genotypes among the five best of its late generations."""
+        return int(self.results.genotypes[self.index])
+
+    @property
+    def longest_stay(self) -> int:
+        """The most late generations in which one genotype was among the five best."""
+        return int(self.results.longest_stay[self.index])
+
+    @property
+    def generalisers(self) -> Generalisers:
+        """Its fully compositional agents over time."""
+        return self.results.generalisers[self.index]
+
+    def first_solved_in_words(self, form: str) -> str:
+        """The first generation in which one genotype carried out all trials, in a form, or "never"."""
+        first = int(self.results.first_solved[self.index])
+        return form.format(first) if first != NEVER else "never"
+
+    def members(self, kind: AgentClass) -> int:
+        """How many of its agents belong to a class."""
+        return int(self.results.members[kind][self.index])
+
+    def in_top(self, subtask: str) -> int:
+        """How many of its agents are in category 10 of a sub-task."""
+        return int(self.results.counts_per_run[self.index, -1, SUBTASKS.index(subtask)])
+
+    def share_in_top(self, subtask: str) -> float:
+        """The same as a share of its agents."""
+        return float(self.results.share_in_top(subtask)[self.index])
 
 
 @dataclass(frozen=True)
@@ -125,7 +195,12 @@ class Results:
     published_tests: Mapping[str, tuple[float, float]]
 
     @property
+    def analysed_runs(self) -> list[AnalysedRun]:
+        """All runs that are in here, condition by condition."""
+        return [AnalysedRun(found, i) for found in self.conditions.values() for i in range(len(found.runs))]
+
+    @property
     def missing(self) -> tuple[str, ...]:
         """One sentence for everything that is missing or was left out."""
-        left_out = [sentence for each in self.conditions.values() for sentence in each.missing]
-        return (*self.experiment.unreadable, *self.experiment.absent, *left_out)
+        left_out = [sentence for found in self.conditions.values() for sentence in found.missing]
+        return (*self.experiment.unreadable, *self.experiment.copies, *self.experiment.absent, *left_out)

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from shlex import quote
 
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.agents.postevaluation import PostEvaluation, read_post_evaluation
-from evolution.agents.solving import solved_trials
-from evolution.agents.transition_test import TransitionTest, read_transition_test
-from evolution.experiments.experiment import state_of
+from arm2d.records import brief
+from evolution.agents.firsts import first_row
+from evolution.agents.postevaluation import POST_EVALUATION, PostEvaluation
+from evolution.agents.solving import all_solved
+from evolution.agents.transitions import TRANSITION_TEST, TransitionTest
+from evolution.experiments.standing import standing_of
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History
 from evolution.runs.recorded import recorded_histories
@@ -40,6 +43,8 @@ class TestedRun:
     evaluation: PostEvaluation
     transitions: TransitionTest
 
+    __repr__ = brief
+
 
 def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[str]]:
     """The runs that are complete and sound, and for each of the others why it is left out and what to do.
@@ -56,7 +61,7 @@ def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[s
             tested.append(_read(run))
         except ValueError as error:
             missing.append(f"{name_of(run)}: left out, {error}")
-    lengths = {each.run.config.settings.generations for each in tested}
+    lengths = {found.run.config.settings.generations for found in tested}
     if len(lengths) > 1:
         raise ValueError(f"the runs have {sorted(lengths)} generations; analyse runs of one length together")
     return tested, missing
@@ -64,28 +69,26 @@ def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[s
 
 def unfinished(run: RunFolder) -> str:
     """What a run lacks to be analysed and how to go on, or nothing."""
-    state = state_of(run)
-    if state.damage:
-        return state.damage
-    if not state.finished:
-        return f"{state.generations} generations so far; go on with: {_evolve_command(run)}"
-    if state.evaluated < state.to_evaluate:
-        return f"not post-evaluated; go on with: wordarm postevaluate {run.path}"
+    standing = standing_of(run.path, run.config)
+    if standing.damage:
+        return standing.damage
+    if not standing.finished:
+        return f"{standing.generations} generations so far; go on with: {_evolve_command(run)}"
+    if standing.tested < standing.to_test:
+        return f"not post-evaluated; go on with: wordarm postevaluate {quote(str(run.path))}"
     return ""
 
 
 def _read(run: RunFolder) -> TestedRun:
     """All of a run that an analysis needs; raises `ValueError` if a file is missing or damaged."""
-    evaluation, transitions = read_post_evaluation(run), read_transition_test(run)
+    evaluation, transitions = POST_EVALUATION.read(run), TRANSITION_TEST.read(run)
     history = History.join(recorded_histories(run))
-    n_trials = len(run.config.condition.experienced) * 2 * run.config.settings.trials_per_area
-    all_solved = np.flatnonzero(solved_trials(run) == n_trials)
     late = history.best_genotypes[-len(evaluation.generations) :]
     _, copies = np.unique(late.reshape(-1, late.shape[-1]), axis=0, return_counts=True)
     return TestedRun(
         run=run,
         best=history.best,
-        first_solved=int(all_solved[0]) if all_solved.size else -1,
+        first_solved=first_row(all_solved(run)),
         genotypes=len(copies),
         longest_stay=int(copies.max()),
         evaluation=evaluation,
@@ -96,7 +99,7 @@ def _read(run: RunFolder) -> TestedRun:
 def _evolve_command(run: RunFolder) -> str:
     """What goes on with a run."""
     condition, seed = run.config.condition, run.config.seed
-    command = f"wordarm evolve --condition={condition} --seed={seed} --output={run.path}"
+    command = f"wordarm evolve --condition={condition} --seed={seed} --output={quote(str(run.path))}"
     if run.config.differences(RunConfig(condition, seed)):
         command += ", with the settings and readings of its config.toml as flags"
     return command

@@ -10,10 +10,14 @@ import io
 import math
 import zipfile
 import zlib
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+
+from arm2d.files import NoFileError, read_file
 
 # Far above any file of this project; keeps a mistaken or malicious file from filling the memory.
 LARGEST_CONTENT: Final = 64 * 2**20
@@ -27,10 +31,29 @@ HEADERS: Final = {
     (2, 0): np.lib.format.read_array_header_2_0,
 }
 ENDING: Final = ".npy"
+# How an archive's directory begins what it tells of a member.
+ENTRY: Final = b"PK\x01\x02"
 
 
 class UnreadableError(ValueError):
     """Bytes that are no arrays, or more than anyone wants."""
+
+
+def read_genotype_file(path: Path) -> Mapping[str, NDArray]:
+    """The named arrays of an .npz, or the only one of an .npy as "genotypes"; not yet held against anything.
+
+    Raises:
+        ValueError: If it is neither, or too large.
+        OSError: If it cannot be read.
+    """
+    refusal = f"{path} is not a genotype file: give an .npz with an array genotypes [P, 84], or an .npy"
+    try:
+        data = read_file(path, LARGEST_CONTENT)
+        if zipfile.is_zipfile(io.BytesIO(data)):
+            return unpack_archive(data)
+        return {"genotypes": unpack_array(data)}
+    except (NoFileError, UnreadableError) as error:
+        raise ValueError(f"{refusal} ({error})") from None
 
 
 def unpack_archive(data: bytes) -> dict[str, NDArray]:
@@ -39,12 +62,15 @@ def unpack_archive(data: bytes) -> dict[str, NDArray]:
     Raises:
         UnreadableError: If it is none, or its content is larger than `LARGEST_CONTENT`.
     """
+    if data.count(ENTRY) > MOST_ARRAYS:  # told before a list of them is made
+        raise UnreadableError(f"it holds more than {MOST_ARRAYS} arrays")
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             members = archive.infolist()
             _check_members(members)
-            # A member never gives more bytes than its size, which was added up above.
-            return {each.filename.removesuffix(ENDING): unpack_array(archive.read(each)) for each in members}
+            return {
+                each.filename.removesuffix(ENDING): unpack_array(_content(archive, each)) for each in members
+            }
     except UnreadableError:
         raise
     # What a broken or foreign archive brings about in the reader, encryption included.
@@ -70,6 +96,8 @@ def unpack_array(data: bytes) -> NDArray:
     shape, by_columns, dtype = _header(stream)
     if dtype.hasobject or dtype.kind not in KINDS:
         raise UnreadableError(f"it holds {dtype}, not numbers or text")
+    if not dtype.itemsize:
+        raise UnreadableError("it holds items of 0 bytes, of which any number has no size")
     room = len(data) - stream.tell()
     if any(n < 0 for n in shape) or math.prod(shape) * dtype.itemsize != room:
         raise UnreadableError(f"its header tells of {_shown(shape)} of {dtype}, but {room} bytes follow")
@@ -81,6 +109,12 @@ def unpack_array(data: bytes) -> NDArray:
     if dtype.kind == "U" and not _is_text(array):
         raise UnreadableError("it holds text with characters that do not exist")
     return array
+
+
+def _content(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> bytes:
+    """The bytes of a member; unpacked no further than its size, which may be a lie."""
+    with archive.open(member) as file:
+        return file.read(member.file_size)
 
 
 def _check_members(members: list[zipfile.ZipInfo]) -> None:

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import run_trials
+from arm2d.records import brief
 from evolution.runs.folder import CHAMPIONS, RunFolder
 from evolution.runs.history import History
 from evolution.search.algorithm import mean_in_order
@@ -49,6 +50,8 @@ class Candidates:
     genotypes: NDArray[np.float64]
     generations: NDArray[np.int64]
     ranks: NDArray[np.int64]
+
+    __repr__ = brief
 
     def __getitem__(self, index: NDArray[np.int64]) -> Candidates:
         return Candidates(self.genotypes[index], self.generations[index], self.ranks[index])

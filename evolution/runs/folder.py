@@ -11,14 +11,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.files import is_temporary, read_file
 from evolution.runs.history import History, history_from_arrays
-from evolution.search.config import RunConfig
-from evolution.search.toml import read_toml_file
 from evolution.runs.storage import (
     DamagedFileError,
     make_folder,
@@ -27,9 +26,12 @@ from evolution.runs.storage import (
     write_arrays,
     write_atomically,
 )
+from evolution.search.config import RunConfig
+from evolution.search.toml import read_toml_file
 
 GENERATIONS_PER_PART: Final = 100
 CONFIG: Final = "config.toml"
+LARGEST_CONFIG: Final = 1_000_000  # [bytes]
 META: Final = "meta.json"
 PARTS: Final = "parts"
 CHECKPOINT: Final = "checkpoint.npz"
@@ -53,15 +55,17 @@ class RunFolder:
     config: RunConfig
 
     @classmethod
-    def open(cls, path: Path) -> RunFolder:
+    def open(cls, path: Path | str) -> Self:
         """The folder of a run that was started before.
 
         Raises:
             ValueError: If there is none, or its config.toml cannot be understood.
         """
+        path = Path(path)
         config = path / CONFIG
         if not path.is_dir():
             raise ValueError(f"{path} is not a folder; give the folder of a run, with its {CONFIG}")
+        _refuse_links(path)
         if not config.is_file():
             raise ValueError(f"{path} holds no run: {CONFIG} is missing; start one with: wordarm evolve")
         try:
@@ -72,7 +76,7 @@ class RunFolder:
             ) from None
 
     @classmethod
-    def create(cls, path: Path, config: RunConfig) -> RunFolder:
+    def create(cls, path: Path, config: RunConfig) -> Self:
         """The folder of this run, with its config.toml.
 
         Raises:
@@ -88,7 +92,7 @@ class RunFolder:
     @property
     def identity(self) -> str:
         """SHA-256 of config.toml, which every array file of the run carries."""
-        return hashlib.sha256((self.path / CONFIG).read_bytes()).hexdigest()
+        return hashlib.sha256(read_file(self.path / CONFIG, LARGEST_CONFIG)).hexdigest()
 
     @property
     def spans(self) -> list[range]:
@@ -153,7 +157,7 @@ class RunFolder:
         try:
             yield
         except DamagedFileError as error:
-            next_move = f"put it right with: wordarm repair {self.path}"
+            next_move = f"put it right with: wordarm verify {self.path} --repair"
             raise DamagedFileError(path, error.found, next_move) from None
 
     def write_arrays(self, path: Path, arrays: dict[str, NDArray]) -> None:
@@ -165,7 +169,8 @@ class RunFolder:
         return DamagedFileError(
             self.part_path(span),
             found,
-            f"recompute generations {span.start} to {span.stop - 1} with: wordarm repair {self.path}",
+            f"recompute generations {span.start} to {span.stop - 1} with: "
+            f"wordarm verify {self.path} --repair",
         )
 
 
@@ -175,10 +180,21 @@ def refuse_other(path: Path, config: RunConfig) -> None:
     Raises:
         ValueError: With the difference.
     """
+    _refuse_links(path)
     if (path / CONFIG).exists():
         if differences := RunFolder.open(path).config.differences(config):
             raise ValueError(f"{path} was started with {'; '.join(differences)}; choose a new directory")
     elif path.is_dir():
-        names = {each.name for each in path.iterdir() if not each.name.endswith(".tmp")}
+        names = {each.name for each in path.iterdir() if not is_temporary(each.name)}
         if strangers := sorted(names - OWN_FILES):
             raise ValueError(f"{path} holds {strangers[0]} but no run; choose a new directory")
+
+
+def _refuse_links(path: Path) -> None:
+    """Refuse a run whose own files or folders lie elsewhere, for there would be written."""
+    for name in sorted(OWN_FILES):
+        if (path / name).is_symlink():
+            raise ValueError(
+                f"{path / name} is a symbolic link, but a run's files lie in its folder; "
+                "remove the link, or put there what it leads to"
+            )

@@ -8,20 +8,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
+from arm2d.records import brief
+from evolution.runs.storage import DamagedFileError
 from evolution.search.algorithm import mean_in_order, rank
 from evolution.search.config import RunConfig
 from evolution.search.population import Population
-from evolution.search.settings import N_BEST
-from evolution.runs.storage import DamagedFileError
-
-# F1, F2 and F3 are at most 1 each.
-LARGEST_FITNESS: Final = 3.0
+from evolution.search.settings import LARGEST_TRIAL_FITNESS, N_BEST
 
 
 @dataclass(frozen=True)
@@ -47,6 +44,8 @@ class History:
     mean: NDArray[np.float64]
     median: NDArray[np.float64]
     worst: NDArray[np.float64]
+
+    __repr__ = brief
 
     @classmethod
     def join(cls, histories: Iterable[History]) -> History:
@@ -126,7 +125,7 @@ def history_from_arrays(path: Path, arrays: Mapping[str, NDArray], span: range, 
     if history.generations.tolist() != list(span):
         raise DamagedFileError(path, f"its generations are not {span.start} to {span.stop - 1}")
     for name in ("fitness", "best", "mean", "median", "worst"):
-        check_range(path, arrays, name, 0.0, LARGEST_FITNESS)
+        check_range(path, arrays, name, 0.0, LARGEST_TRIAL_FITNESS)
     check_range(path, arrays, "parents", -1, config.settings.population - 1)
     check_range(path, arrays, "best_genotypes", 0.0, 1.0)
     return history

@@ -7,6 +7,7 @@ again. Ages are told by the file server's clock alone.
     the lease is another machine's, touched lately     its holder is taken to be alive: in use
     the same, not touched for LAPSE                     its machine is taken to be dead: taken over
     the lease is of this machine, whose lock we hold    its process is dead: taken over
+    the lease is dated in the future                    dated anew, and judged by whether it is touched again
 
 A holder that cannot touch its lease, or finds it taken over, ends itself at once and writes no more.
 """
@@ -28,14 +29,18 @@ from functools import cache
 from pathlib import Path
 from typing import Final
 
+from arm2d.files import NoFileError, handle_of_new, read_with_status
 from evolution.runs.folder import LEASE
 
 RENEWAL: Final = 15.0  # [s] between two touches
 LAPSE: Final = 90.0  # [s] after which others may take over
 # Without a touch for so long [s], a holder ends itself: well before others may take over.
 GIVE_UP: Final = LAPSE - 2 * RENEWAL
+# A date so far ahead of the server's clock [s] is that of another clock.
+TOLERANCE: Final = 1.0
 # Whoever takes over looks again after this time [s], in case another did so in the same moment.
 SETTLE: Final = 2.0
+LONGEST: Final = 10_000  # [bytes]
 # Exit code of a process that lost its lease; not 2, for it is nobody's mistake.
 EXIT_CODE: Final = 75
 
@@ -94,8 +99,12 @@ def leased(folder: Path, *, lock_held: bool, on_loss: Callable[[str], None] | No
 
 def held_elsewhere(folder: Path) -> bool:
     """Whether a process of another machine seems to be at work; asked without writing anything."""
-    holder, touched = _read(folder / LEASE)
-    return holder is not None and holder.kernel != this_kernel() and time.time() - touched < LAPSE
+    try:
+        holder, touched = _read(folder / LEASE)
+    except OSError:  # no lease of ours
+        return False
+    # Nothing being written, the clock of the server is unknown; a date far from ours is no sign of life.
+    return holder is not None and holder.kernel != this_kernel() and abs(time.time() - touched) < LAPSE
 
 
 @cache
@@ -113,7 +122,12 @@ def _claim(path: Path, mine: Holder, lock_held: bool) -> None:
         return
     other, touched = _read(path)
     dead_here = lock_held and other is not None and other.kernel == mine.kernel
-    if not dead_here and _server_time(path.parent) - touched < LAPSE:
+    age = _server_time(path.parent) - touched
+    if age < -TOLERANCE:
+        # A clock was set back: of this date no age can be told, of the present one it can.
+        with suppress(OSError):
+            os.utime(path, follow_symlinks=False)
+    if not dead_here and age < LAPSE:
         raise _in_use(path.parent, other)
     temporary = _write_beside(path, mine)
     temporary.replace(path)
@@ -139,7 +153,8 @@ def _write_beside(path: Path, mine: Holder) -> Path:
     """A file with the lease's content, to be linked or renamed."""
     temporary = path.with_name(f".{path.name}-{mine.token}.tmp")
     try:
-        temporary.write_text(json.dumps(asdict(mine)) + "\n", encoding="utf-8")
+        with os.fdopen(handle_of_new(temporary), "w", encoding="utf-8") as file:
+            file.write(json.dumps(asdict(mine)) + "\n")
     except OSError as error:
         temporary.unlink(missing_ok=True)
         raise OSError(f"{path} cannot be written: {error.strerror}; put this right first") from None
@@ -149,14 +164,15 @@ def _write_beside(path: Path, mine: Holder) -> Path:
 def _read(path: Path) -> tuple[Holder | None, float]:
     """The holder, if it can be read, and when the lease was touched; opening it asks the file server anew."""
     try:
-        with path.open(encoding="utf-8") as file:
-            touched = os.fstat(file.fileno()).st_mtime
-            try:
-                return Holder(**json.load(file)), touched
-            except (ValueError, TypeError, RecursionError):
-                return None, touched
+        data, status = read_with_status(path, LONGEST, links=False)
     except FileNotFoundError:
         return None, float("-inf")
+    except NoFileError as error:
+        raise OSError(f"{path} is no lease ({error}); remove it") from None
+    try:
+        return Holder(**json.loads(data)), status.st_mtime
+    except (ValueError, TypeError, RecursionError):
+        return None, status.st_mtime
 
 
 def _server_time(folder: Path) -> float:
@@ -184,7 +200,7 @@ def _renew(path: Path, mine: Holder, released: threading.Event, on_loss: Callabl
             if (holder := _read(path)[0]) not in (mine, None):
                 on_loss(f"{holder.host} has taken over {path.parent}; this process ends and writes no more")
                 return
-            os.utime(path)
+            os.utime(path, follow_symlinks=False)
             touched = _now()
         if _now() - touched > GIVE_UP:
             on_loss(f"{path} cannot be touched; this process ends before another machine takes over")

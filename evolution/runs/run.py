@@ -6,19 +6,24 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
 from evolution.runs import meta
 from evolution.runs.champion import keep_champions
 from evolution.runs.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
 from evolution.runs.folder import CHAMPIONS, META, RunFolder, refuse_other
 from evolution.runs.history import HistoryBuilder
-from evolution.runs.lock import locked
+from evolution.runs.intervals import at_intervals
+from evolution.runs.lock import Hold, locked
 from evolution.runs.replay import replay_part
+from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.algorithm import mean_in_order
 from evolution.search.config import RunConfig
 from evolution.search.population import first_population, next_population
 from evolution.search.scoring import score_population
-from evolution.runs.storage import DamagedFileError, make_folder
+
+# Seconds between two notes in the lock file of how far the run has come.
+TELL_INTERVAL: Final = 0.5
 
 
 @dataclass(frozen=True)
@@ -71,11 +76,11 @@ def evolve(path: Path, config: RunConfig, watcher: Watcher | None = None) -> int
     watcher = watcher or Watcher()
     refuse_other(path, config)
     make_folder(path)
-    with locked(path):
+    with locked(path) as hold:
         folder = RunFolder.create(path, config)
         reached = resume(folder, watcher)
         if reached.population.generation < config.settings.generations:
-            reached = _score_generations(folder, reached, watcher)
+            reached = _score_generations(folder, reached, watcher, hold)
         else:
             _keep_last_checkpoint(folder, reached)
         if reached.population.generation == config.settings.generations and not (path / CHAMPIONS).exists():
@@ -117,20 +122,21 @@ def _keep_last_checkpoint(folder: RunFolder, reached: Checkpoint) -> None:
         save_checkpoint(folder, reached)
 
 
-def _score_generations(folder: RunFolder, start: Checkpoint, watcher: Watcher) -> Checkpoint:
+def _score_generations(folder: RunFolder, start: Checkpoint, watcher: Watcher, hold: Hold) -> Checkpoint:
     """Score generation after generation; write a part and a checkpoint at the end of each part."""
     config, began = folder.config, time.process_time()
     population, part = start.population, HistoryBuilder(config)
     part.extend(start.unfinished)
     span_until = {span.stop: span for span in folder.spans}
+    tell = at_intervals(TELL_INTERVAL, hold.tell)
     meta.note_start(folder.path / META, population.generation)
     watcher.on_start(population.generation)
     while population.generation < config.settings.generations and not watcher.wants_stop():
         fitness = score_population(population, config)  # [P]
         part.append(population, fitness)
-        watcher.on_generation(
-            Progress(population.generation, float(fitness.max()), float(mean_in_order(fitness)))
-        )
+        best = float(fitness.max())
+        watcher.on_generation(Progress(population.generation, best, float(mean_in_order(fitness))))
+        tell(population.generation + 1, best)
         population = next_population(population, fitness, config)
         if population.generation in span_until:
             folder.write_part(span_until[population.generation], part.build())

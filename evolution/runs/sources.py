@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, check_genotypes
+from evolution.runs.arrays import read_genotype_file
 from evolution.runs.folder import CHAMPIONS, RunFolder
-from evolution.runs.genotype_files import read_genotype_file
 from evolution.runs.recorded import recorded_generation, recorded_histories
 from evolution.runs.replay import population_at
 from evolution.search.algorithm import rank as ranking
@@ -24,8 +24,8 @@ PROVENANCE: Final = ("generations", "ranks")
 
 
 @dataclass(frozen=True)
-class Source:
-    """A genotype and what is known of it.
+class Agent:
+    """An agent: a genotype and what is known of it.
 
     Attributes:
         genotype: [84].
@@ -43,10 +43,13 @@ class Source:
     name: str
     folder: RunFolder | None = None
 
+    def __repr__(self) -> str:
+        return f"<Agent: {self.origin}>"
 
-def find_source(
+
+def find_agent(
     text: str, *, generation: int | None = None, rank: int = 0, condition: Condition | None = None
-) -> Source:
+) -> Agent:
     """The genotype that a user means.
 
     Args:
@@ -74,7 +77,7 @@ def find_source(
     )
 
 
-def _from_run(folder: RunFolder, generation: int | None, rank: int) -> Source:
+def _from_run(folder: RunFolder, generation: int | None, rank: int) -> Agent:
     """A champion of the run; or the genotype of some rank in a generation."""
     if generation is None and (folder.path / CHAMPIONS).exists():
         arrays = folder.read_arrays(folder.path / CHAMPIONS)
@@ -82,7 +85,7 @@ def _from_run(folder: RunFolder, generation: int | None, rank: int) -> Source:
     if generation is None:
         generation = sum(len(each) for each in recorded_histories(folder)) - 1
     genotype = _of_generation(folder, generation, rank)
-    return Source(
+    return Agent(
         genotype,
         folder.config.condition,
         folder.config.readings,
@@ -104,7 +107,7 @@ def _of_generation(folder: RunFolder, generation: int, rank: int) -> NDArray[np.
     return population_at(folder, generation).genotypes[order[rank]]
 
 
-def _from_file(path: Path, rank: int, condition: Condition | None) -> Source:
+def _from_file(path: Path, rank: int, condition: Condition | None) -> Agent:
     """A genotype of a file, with the config it carries or, if it carries none, the default readings."""
     arrays = read_genotype_file(path)
     if "config" not in arrays:
@@ -119,7 +122,7 @@ def _from_file(path: Path, rank: int, condition: Condition | None) -> Source:
 
 def _pick(
     path: Path, arrays: Mapping[str, NDArray], rank: int, config: RunConfig, folder: RunFolder | None
-) -> Source:
+) -> Agent:
     """One of the genotypes of a file."""
     name = next((each for each in ("genotypes", "genotype") if each in arrays), None)
     if name is None:
@@ -134,7 +137,7 @@ def _pick(
     if "config" in arrays and all(_numbers_each(arrays.get(each), genotypes) for each in PROVENANCE):
         origin = _describe(config, *(int(arrays[each][rank]) for each in PROVENANCE))
     name = ("champion" if folder else path.stem) + (f"-{rank}" if rank else "")
-    return Source(genotypes[rank], config.condition, config.readings, origin, name, folder)
+    return Agent(genotypes[rank], config.condition, config.readings, origin, name, folder)
 
 
 def _numbers_each(array: NDArray | None, genotypes: NDArray) -> bool:
@@ -147,10 +150,10 @@ def _describe(config: RunConfig, generation: int, rank: int) -> str:
     return f"{config.condition}, seed {config.seed}, generation {generation}, rank {rank}"
 
 
-def _of_known_condition(source: Source, condition: Condition | None) -> Source:
-    """Refuse another condition than the source's own."""
-    if condition not in (None, source.condition):
+def _of_known_condition(agent: Agent, condition: Condition | None) -> Agent:
+    """Refuse another condition than the agent's own."""
+    if condition not in (None, agent.condition):
         raise ValueError(
-            f"{source.origin} belongs to {source.condition}, not {condition}; leave --condition out"
+            f"{agent.origin} belongs to {agent.condition}, not {condition}; leave --condition out"
         )
-    return source
+    return agent

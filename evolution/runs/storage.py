@@ -6,19 +6,17 @@ hexadecimal. NumPy and unzip pass over it; `read_arrays` verifies it before anyt
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import io
-import os
 import zipfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from pathlib import Path
-from typing import BinaryIO, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.files import NoFileError, opened_folder, read_file, write_whole
 from evolution.runs.arrays import LARGEST_CONTENT, UnreadableError, unpack_archive
 
 # Length of a SHA-256 in hexadecimal.
@@ -45,31 +43,36 @@ def make_folder(path: Path) -> None:
         OSError: If that is impossible.
     """
     try:
-        path.mkdir(parents=True, exist_ok=True)
+        with opened_folder(path, make=True):
+            pass
     except OSError as error:
-        raise OSError(f"{path} cannot be made: {error.strerror}; choose another folder") from None
+        raise OSError(
+            f"{path} cannot be made: {_obstacle(path) or error.strerror}; choose another folder"
+        ) from None
+
+
+def _obstacle(path: Path) -> str | None:
+    """What stands where a folder should be made, if that can be told."""
+    for place in (path, *path.parents):
+        if place.is_symlink() and not place.exists():
+            return f"{_name(place, path)} is a link to {place.readlink()}, which does not exist"
+        if place.is_file():
+            return f"{_name(place, path)} is a file"
+    return None
+
+
+def _name(place: Path, path: Path) -> str:
+    return "it" if place == path else str(place)
 
 
 def write_atomically(path: Path, data: bytes) -> None:
     """Write a file so that a kill at any moment leaves either the old file or the new one.
 
-    Two processes that write the same file take turns; what a dead one left unfinished is written over.
-
     Raises:
         OSError: If it cannot be written; the old file, if any, is still there.
     """
-    temporary = path.with_name(f".{path.name}.tmp")
     try:
-        with _opened_alone(temporary) as file:
-            try:
-                file.write(data)
-                file.flush()
-                os.fsync(file.fileno())
-                temporary.replace(path)
-            except OSError:
-                temporary.unlink(missing_ok=True)
-                raise
-        _flush_directory(path.parent)
+        write_whole(path, data)
     except OSError as error:
         raise OSError(
             f"{path} cannot be written: {error.strerror}; what was written before is whole: "
@@ -101,9 +104,10 @@ def read_arrays(path: Path) -> dict[str, NDArray]:
 
 def verified_bytes(path: Path) -> bytes:
     """The bytes of such a file, once its checksum is found to fit; raises as `read_arrays`."""
-    if path.stat().st_size > LARGEST_CONTENT:
-        raise DamagedFileError(path, f"it is larger than {LARGEST_CONTENT // 2**20} MB")
-    data = path.read_bytes()
+    try:
+        data = read_file(path, LARGEST_CONTENT)
+    except NoFileError as error:
+        raise DamagedFileError(path, str(error)) from None
     content, digest = data[:-DIGEST_LENGTH], data[-DIGEST_LENGTH:]
     if hashlib.sha256(content).hexdigest().encode() != digest:
         raise DamagedFileError(path, "its checksum does not fit its content")
@@ -120,33 +124,3 @@ def pack_arrays(arrays: Mapping[str, NDArray]) -> bytes:
         archive.comment = b"-" * DIGEST_LENGTH  # keeps the place
     content = buffer.getvalue()[:-DIGEST_LENGTH]
     return content + hashlib.sha256(content).hexdigest().encode()
-
-
-@contextmanager
-def _opened_alone(path: Path) -> Iterator[BinaryIO]:
-    """An empty file that no other process writes while it is open; one that does is waited for."""
-    while True:
-        with path.open("ab") as file:
-            fcntl.flock(file, fcntl.LOCK_EX)
-            if _names(path, file):
-                file.truncate(0)
-                yield file
-                return
-            # Whoever was waited for has given the file its final name: begin another.
-
-
-def _names(path: Path, file: BinaryIO) -> bool:
-    """Whether a path leads to this open file."""
-    try:
-        return os.path.samestat(path.stat(), os.fstat(file.fileno()))
-    except FileNotFoundError:
-        return False
-
-
-def _flush_directory(directory: Path) -> None:
-    """Make a rename survive a power cut."""
-    handle = os.open(directory, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from arm2d import Readings
 from arm2d.constants import N_GENES
-from evolution.search.gaussian import draw_gaussian
+from evolution.search.randomness import draw_gaussian
 from evolution.search.settings import Settings
 
 

@@ -24,7 +24,7 @@ class RunConfig:
     """One run: which instructions, which chance, which algorithm, which world.
 
     Attributes:
-        condition: Which third action is met.
+        condition: Which third action is met; its name, such as "with-ignore", will do.
         seed: All of the run's random numbers follow from it.
         settings: The genetic algorithm.
         readings: How the paper is understood.
@@ -36,6 +36,7 @@ class RunConfig:
     readings: Readings = field(default_factory=Readings)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "condition", Condition.parse(self.condition))
         if not isinstance(self.seed, int) or isinstance(self.seed, bool) or not 0 <= self.seed < SEED_LIMIT:
             raise ValueError(f"seed = {self.seed!r} must be a whole number from 0 to 2**63 - 1")
 
@@ -105,7 +106,7 @@ def _flatten(values: Mapping[str, Any]) -> dict[str, Any]:
     flat = {}
     for key, value in values.items():
         if isinstance(value, Mapping):
-            flat.update({f"{key}.{name}": each for name, each in value.items()})
+            flat.update({f"{key}.{name}": part for name, part in value.items()})
         else:
             flat[key] = value
     return flat

@@ -42,6 +42,16 @@ class Evaluation:
     f3: NDArray[np.float64]
     steps: NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        n_agents = len(self.successes)
+        share = 100 * self.success.mean()
+        return f"<Evaluation: {n_agents} x 9 instructions x {self.trials} trials, {share:.0f} % carried out>"
+
+    @property
+    def success(self) -> NDArray[np.float64]:
+        """Share of the trials of each instruction that were carried out, [P, 9]."""
+        return self.successes.sum(axis=-1) / self.trials
+
     @property
     def trials(self) -> int:
         """Trials of each instruction."""
@@ -50,13 +60,13 @@ class Evaluation:
     @property
     def experienced(self) -> NDArray[np.bool_]:
         """Which of the nine instructions were met during evolution, [9]."""
-        return np.array([each in self.condition.experienced for each in self.condition.instructions])
+        return np.array([word in self.condition.experienced for word in self.condition.instructions])
 
 
 def evaluate(
     genotypes: ArrayLike,
-    condition: Condition,
-    readings: Readings,
+    condition: Condition | str,
+    readings: Readings | None = None,
     *,
     per_area: int = TRIALS_PER_AREA,
     trial_seed: int = 0,
@@ -65,14 +75,15 @@ def evaluate(
 
     Args:
         genotypes: [P, 84], or one [84]. All meet the same trials.
-        condition: Which nine instructions.
-        readings: The world, which should be the one they evolved in.
+        condition: Which nine instructions; its name, such as "with-ignore", will do.
+        readings: The world, which should be the one they evolved in; the default readings if none are given.
         per_area: Trials of each instruction from each start area.
         trial_seed: Draws the trials.
 
     Raises:
         ValueError: If a genotype is unsound, or there are no trials.
     """
+    condition, readings = Condition.parse(condition), readings or Readings()
     rng = generator(trial_seed, Purpose.EVALUATION)
     trials = draw_trials(condition.instructions, per_area, readings, rng)
     scores = run_trials(genotypes, trials, readings)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.search.algorithm import breed, choose_crossings, choose_parents, initial_genotypes
 from evolution.search.config import RunConfig
 from evolution.search.randomness import Purpose, generator
@@ -26,6 +27,8 @@ class Population:
     generation: int
     genotypes: NDArray[np.float64]
     parents: NDArray[np.int64]
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         self.genotypes.flags.writeable = False

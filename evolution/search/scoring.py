@@ -27,11 +27,11 @@ def draw_evolution_trials(
         ValueError: If an instruction is not among those the condition lets agents experience.
     """
     experienced = condition.experienced
-    for each in instructions:
-        if each not in experienced:
+    for instruction in instructions:
+        if instruction not in experienced:
             raise ValueError(
-                f"non-experienced instruction {each.action.name} {each.object.name} was drawn for evolution; "
-                "this would spoil the result"
+                f"non-experienced instruction {instruction.action.name} {instruction.object.name} "
+                "was drawn for evolution; this would spoil the result"
             )
     return draw_trials(instructions, per_area, readings, rng)
 
@@ -43,8 +43,8 @@ def score_population(population: Population, config: RunConfig) -> NDArray[np.fl
     """
     rng = generator(config.seed, Purpose.TRIALS, population.generation)
     if config.readings.starts_shared == "genotype":
-        each = [_score(genotype[np.newaxis], config, rng) for genotype in population.genotypes]
-        return np.concatenate(each)
+        scores = [_score(genotype[np.newaxis], config, rng) for genotype in population.genotypes]
+        return np.concatenate(scores)
     return _score(population.genotypes, config, rng)
 
 

@@ -8,6 +8,11 @@ from typing import Any, Final
 
 # How many of each generation's genotypes are kept. The paper's post-evaluation takes five.
 N_BEST: Final = 5
+# The largest fitness of one trial: F1, F2 and F3 are at most 1 each.
+LARGEST_TRIAL_FITNESS: Final = 3.0
+# The largest fitness of a genotype, a mean over the seven experienced instructions: 3 for four of them, MOVE
+# and TOUCH, and 2 for the three of the third action, which has no F3.
+LARGEST_FITNESS: Final = 18 / 7
 
 
 @dataclass(frozen=True)
@@ -30,10 +35,10 @@ class Settings:
     """Trials of each instruction from each of the two start areas."""
 
     def __post_init__(self) -> None:
-        for each in fields(self):
-            value = getattr(self, each.name)
+        for field in fields(self):
+            value = getattr(self, field.name)
             if not isinstance(value, int) or isinstance(value, bool):
-                raise ValueError(f"setting {each.name} = {value!r} must be a whole number")
+                raise ValueError(f"setting {field.name} = {value!r} must be a whole number")
         _check_interval("population", self.population, N_BEST, 10_000)
         _check_interval("elites", self.elites, 0, self.population - 1)
         _check_interval("parents", self.parents, 1, self.population)
@@ -47,7 +52,7 @@ class Settings:
         Raises:
             ValueError: If a name is unknown or a value is impossible.
         """
-        known = [each.name for each in fields(cls)]
+        known = [field.name for field in fields(cls)]
         for name in values:
             if name not in known:
                 raise ValueError(f"unknown setting {name!r}; there are {', '.join(known)}")

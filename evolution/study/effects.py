@@ -7,14 +7,16 @@ over the pairs, and seeds are what is counted. Looking at many readings at once 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings
+from evolution.report.columns import PlainTable
 from evolution.results.statistics import sign_flip_test
 from evolution.study.measures import RunMeasures
 from evolution.study.table import VariantMeasures, interval
@@ -41,7 +43,7 @@ class Effect:
     @property
     def seeds(self) -> list[int]:
         """Seeds that were evolved in all worlds."""
-        return sorted(set.intersection(*(set(_by_seed(each)) for pair in self.pairs for each in pair)))
+        return sorted(set.intersection(*(set(_by_seed(variant)) for pair in self.pairs for variant in pair)))
 
     @property
     def differences(self) -> NDArray[np.float64]:
@@ -52,11 +54,14 @@ class Effect:
         return np.array(gains).mean(axis=0)  # of [pairs, seeds]
 
     @property
-    def runs(self) -> tuple[list[RunMeasures], list[RunMeasures]]:
-        """All runs of these seeds without the reading, and all with it."""
-        worlds = zip(*self.pairs, strict=True)
-        without, changed = ([_by_seed(each)[seed] for each in own for seed in self.seeds] for own in worlds)
-        return without, changed
+    def without(self) -> list[RunMeasures]:
+        """All runs of these seeds without the reading."""
+        return [_by_seed(without)[seed] for without, _ in self.pairs for seed in self.seeds]
+
+    @property
+    def changed(self) -> list[RunMeasures]:
+        """All runs of these seeds with it, in the same order."""
+        return [_by_seed(changed)[seed] for _, changed in self.pairs for seed in self.seeds]
 
 
 def effects(variants: Sequence[VariantMeasures]) -> list[Effect]:
@@ -72,7 +77,7 @@ def effects(variants: Sequence[VariantMeasures]) -> list[Effect]:
             key = (changed.condition, name, getattr(_readings(changed), name))
             found.setdefault(key, []).append((without, changed))
     listed = [Effect(*key, tuple(pairs)) for key, pairs in found.items()]
-    return [each for each in listed if each.seeds]
+    return [effect for effect in listed if effect.seeds]
 
 
 def holm(p: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -84,29 +89,49 @@ def holm(p: NDArray[np.float64]) -> NDArray[np.float64]:
     return corrected
 
 
-def effect_rows(variants: Sequence[VariantMeasures]) -> Iterable[Sequence[object]]:
-    """One row per condition and reading."""
-    yield (
-        "condition", "reading", "value", "worlds", "seeds", "plateau, difference", "low", "high", "p",
-        "p after Holm", "runs", "at 18/7 without", "at 18/7 with", "solve all trials without",
-        "solve all trials with",
-    )  # fmt: skip
-    for condition in Condition:
-        listed = [each for each in effects(variants) if each.condition is condition]
-        p = np.array([sign_flip_test(each.differences) for each in listed])
-        for each, own, corrected in zip(listed, p, holm(p), strict=True):
-            differences = each.differences
-            at_limit = [sum(run.at_limit for run in runs) for runs in each.runs]
-            solved = [sum(run.first_solved >= 0 for run in runs) for runs in each.runs]
-            yield (
-                str(condition), each.reading, _shown(each.value), len(each.pairs), len(each.seeds),
-                *(f"{v:.4f}" for v in (differences.mean(), *interval(differences))), f"{own:.4f}",
-                f"{corrected:.4f}", len(each.runs[0]), *at_limit, *solved,
-            )  # fmt: skip
+class TestedEffect(NamedTuple):
+    """An effect with its p-value, as it is and after Holm's correction."""
+
+    effect: Effect
+    p: float
+    corrected: float
+
+
+def effect_table(variants: Sequence[VariantMeasures]) -> PlainTable[TestedEffect]:
+    """Every condition and reading in a row."""
+    return PlainTable(
+        {
+            "condition": lambda row: row.effect.condition,
+            "reading": lambda row: row.effect.reading,
+            "value": lambda row: _shown(row.effect.value),
+            "worlds": lambda row: len(row.effect.pairs),
+            "seeds": lambda row: len(row.effect.seeds),
+            "plateau, difference": lambda row: f"{row.effect.differences.mean():.4f}",
+            "low": lambda row: f"{interval(row.effect.differences)[0]:.4f}",
+            "high": lambda row: f"{interval(row.effect.differences)[1]:.4f}",
+            "p": lambda row: f"{row.p:.4f}",
+            "p after Holm": lambda row: f"{row.corrected:.4f}",
+            "runs": lambda row: len(row.effect.without),
+            "at 18/7 without": lambda row: sum(run.at_limit for run in row.effect.without),
+            "at 18/7 with": lambda row: sum(run.at_limit for run in row.effect.changed),
+            "solve all trials without": lambda row: sum(run.solved for run in row.effect.without),
+            "solve all trials with": lambda row: sum(run.solved for run in row.effect.changed),
+        },
+        [tested for condition in Condition for tested in _tested(variants, condition)],
+    )
+
+
+def _tested(variants: Sequence[VariantMeasures], condition: Condition) -> list[TestedEffect]:
+    """The effects in one condition, each with its p-values."""
+    found = [effect for effect in effects(variants) if effect.condition is condition]
+    p = np.array([sign_flip_test(effect.differences) for effect in found])
+    return [TestedEffect(*row) for row in zip(found, p, holm(p), strict=True)]
 
 
 def _differing(one: Readings, other: Readings) -> list[str]:
-    return [each.name for each in fields(Readings) if getattr(one, each.name) != getattr(other, each.name)]
+    return [
+        field.name for field in fields(Readings) if getattr(one, field.name) != getattr(other, field.name)
+    ]
 
 
 def _readings(variant: VariantMeasures) -> Readings:
@@ -126,4 +151,4 @@ def _plateaus(variant: VariantMeasures, seeds: Sequence[int]) -> NDArray[np.floa
 def _shown(value: object) -> object:
     if isinstance(value, float):
         return f"{value:g}"
-    return " ".join(f"{each:g}" for each in value) if isinstance(value, tuple) else value
+    return " ".join(f"{number:g}" for number in value) if isinstance(value, tuple) else value

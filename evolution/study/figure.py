@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from arm2d import Condition
 from arm2d.drawing import INK
 from evolution.agents.subtasks import SUBTASKS, AgentClass
-from evolution.figures.run import FAINT, STYLE, SUCCESS_MAP
+from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP, ink_on
 from evolution.results import published
 from evolution.study.table import AREAS, VariantMeasures, interval
 
@@ -32,6 +32,14 @@ class Column:
     values: Callable[[VariantMeasures], NDArray[Any]]
     published: Callable[[Condition], float | None]
     limits: tuple[float | None, float]  # None: as low as the runs are
+
+
+def _plateaus(variant: VariantMeasures) -> NDArray[Any]:
+    return variant.plateaus
+
+
+def _solved(variant: VariantMeasures) -> NDArray[Any]:
+    return 100.0 * variant.solved
 
 
 def _top_share(subtask: str) -> Callable[[VariantMeasures], NDArray[Any]]:
@@ -52,12 +60,13 @@ def _published_generalisers(condition: Condition) -> float | None:
     return share if condition is Condition.WITH_INDICATE else None
 
 
+PERCENT: Final = (-4.0, 104.0)
 COLUMNS: Final = (
-    Column("plateau of the\nbest fitness", lambda v: v.plateaus, lambda _: published.PLATEAU, (None, 2.62)),
-    Column("runs that solve\nall 28 trials [%]", lambda v: 100.0 * v.solved, lambda _: 100.0, (-4, 104)),
-    Column("category 10 of\nsub-task I [%]", _top_share("I"), _published_share("I"), (-4, 104)),
-    Column("runs with generalists\non all nine [%]", _with_generalisers, _published_generalisers, (-4, 104)),
-)  # fmt: skip
+    Column("plateau of the\nbest fitness", _plateaus, lambda _: published.PLATEAU, (None, 2.62)),
+    Column("runs that solve\nall 28 trials [%]", _solved, lambda _: 100.0, PERCENT),
+    Column("category 10 of\nsub-task I [%]", _top_share("I"), _published_share("I"), PERCENT),
+    Column("runs with generalists\non all nine [%]", _with_generalisers, _published_generalisers, PERCENT),
+)
 
 
 def effects_figure(variants: Sequence[VariantMeasures], title: str) -> Figure:
@@ -128,8 +137,8 @@ def failures_figure(variants: Sequence[VariantMeasures], title: str) -> Figure:
         axes.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=8)
         axes.set_yticks(range(len(variants)), [readable(each) for each in variants], fontsize=8.5)
         for (row, place), share in np.ndenumerate(shares):
-            colour = "white" if share > 0.55 else INK
-            axes.text(place, row, f"{100 * share:.0f}", ha="center", va="center", fontsize=6.5, color=colour)
+            number = axes.text(place, row, f"{100 * share:.0f}", ha="center", va="center", fontsize=6.5)
+            number.set_color(ink_on(share))
         axes.tick_params(length=0)
         axes.spines[:].set_visible(False)
         figure.colorbar(image, ax=axes, label="successful trials [%]", shrink=0.6, aspect=25)

@@ -12,18 +12,19 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import draw_trials, run_trials
-from evolution.agents.postevaluation import N_INSTRUCTIONS, best_genotypes, late_spans
-from evolution.agents.solving import solved_trials
+from arm2d.records import brief
+from evolution.agents.firsts import NEVER, first_row
+from evolution.agents.parts import best_genotypes, late_spans
+from evolution.agents.postevaluation import N_INSTRUCTIONS, successes_by_area
+from evolution.agents.solving import all_solved
 from evolution.agents.subtasks import AgentClass, categories, classify
 from evolution.results.analysis import PLATEAU_SHARE
-from evolution.results.records import FITNESS_LIMIT, PLATEAU_TOLERANCE
+from evolution.results.records import ends_at_largest
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History, check_array
 from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
-from evolution.search.randomness import Purpose, generator
 from evolution.search.settings import N_BEST
 
 FILE: Final = Path("measures") / "late.npz"
@@ -51,10 +52,17 @@ class RunMeasures:
     solved_late: float
     successes: NDArray[np.int16]
 
+    __repr__ = brief
+
     @property
     def at_limit(self) -> bool:
         """Whether it ends at the paper's 2.57."""
-        return self.plateau >= FITNESS_LIMIT - PLATEAU_TOLERANCE
+        return bool(ends_at_largest(self.plateau))
+
+    @property
+    def solved(self) -> bool:
+        """Whether one genotype ever carried out all its trials."""
+        return self.first_solved != NEVER
 
     @property
     def agents(self) -> NDArray[np.int16]:
@@ -89,17 +97,14 @@ def measure(folder: RunFolder) -> RunMeasures:
     if len(folder.finished_spans()) < len(folder.spans):
         raise ValueError(f"{folder.path} is not finished; go on with: wordarm study")
     successes = _late_successes(folder)
-    solved = solved_trials(folder)
-    n_trials = 2 * folder.config.settings.trials_per_area * len(folder.config.condition.experienced)
-    all_solved = solved == n_trials
-    first_late = late_spans(folder)[0].start
-    return RunMeasures(
-        config=folder.config,
-        plateau=_plateau(folder),
-        first_solved=int(np.argmax(all_solved)) if all_solved.any() else -1,
-        solved_late=float(all_solved[first_late:].mean()),
-        successes=successes,
-    )
+    first, share = solved_of(folder)
+    return RunMeasures(folder.config, plateau_of(folder), first, share, successes)
+
+
+def solved_of(folder: RunFolder) -> tuple[int, float]:
+    """First generation in which one genotype carried out all its trials, -1 if none; share of late ones."""
+    solved = all_solved(folder)
+    return first_row(solved), float(solved[late_spans(folder)[0].start :].mean())
 
 
 def check_generations(generations: int) -> None:
@@ -121,7 +126,7 @@ def sampled_generations(folder: RunFolder) -> list[int]:
     return [g for span in late_spans(folder) for g in span if g % SAMPLE_STEP == 0]
 
 
-def _plateau(folder: RunFolder) -> float:
+def plateau_of(folder: RunFolder) -> float:
     """Median best fitness at the end of a finished run; only the parts it stands in are read."""
     generations = folder.config.settings.generations
     first = generations - max(1, round(generations * PLATEAU_SHARE))
@@ -149,20 +154,9 @@ def _late_successes(folder: RunFolder) -> NDArray[np.int16]:
 
 def _simulate(folder: RunFolder) -> NDArray[np.int16]:
     successes = [
-        _successes_of(folder.config, generation, genotypes)
+        successes_by_area(folder.config, generation, genotypes)
         for span in late_spans(folder)
         for generation, genotypes in best_genotypes(folder, span)
         if generation % SAMPLE_STEP == 0
     ]
     return np.array(successes, np.int16).reshape(-1, N_BEST, N_INSTRUCTIONS, 2)
-
-
-def _successes_of(config: RunConfig, generation: int, genotypes: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Successes [5, 9, 2] of a generation's best, each agent in trials of its own."""
-    rng = generator(config.seed, Purpose.POST_EVALUATION, generation)
-    successes = []
-    for genotype in genotypes:
-        trials = draw_trials(config.condition.instructions, TRIALS_PER_AREA, config.readings, rng)
-        success = run_trials(genotype, trials, config.readings).success
-        successes.append(success.reshape(N_INSTRUCTIONS, 2, TRIALS_PER_AREA).sum(axis=-1))
-    return np.array(successes)

@@ -8,21 +8,23 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Condition
-from evolution.experiments.jobs import Failure, Watcher, run_jobs
+from evolution.child import reference
+from evolution.experiments.jobs import Failure, Overseer, run_jobs
 from evolution.experiments.plan import LOGS, Plan
 from evolution.experiments.standing import Standing
+from evolution.experiments.variants import Variant
 from evolution.experiments.warm_workers import WarmStart
 from evolution.experiments.workers import Ended, Job
+from evolution.figures.page import save_figure
 from evolution.figures.paper import TITLES
-from evolution.figures.run import save_figure
-from evolution.report.files import to_csv
 from evolution.runs.folder import RunFolder
 from evolution.runs.interrupt import StopRequest
+from evolution.runs.lock import locked
 from evolution.runs.storage import make_folder, write_atomically
-from evolution.study.effects import effect_rows
+from evolution.study.effects import effect_table
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import is_measured, measure
-from evolution.study.table import VariantMeasures, group, run_rows, variant_rows
+from evolution.study.table import VariantMeasures, group, run_table, variant_table
 from evolution.study.variants import Part
 
 MEASURING: Final = "measuring"
@@ -35,13 +37,13 @@ def measure_runs(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Failure, 
     if not chains:
         return ()
     print(f"measuring {len(chains)} runs", flush=True)
-    watcher = Watcher(
+    overseer = Overseer(
         on_end=_counting(len(chains)),
         on_note=lambda note: print(note, flush=True),
         wants_stop=lambda: stop.requested,
     )
     with WarmStart(plan.folder / LOGS / "workers.log") as warm:
-        return run_jobs(chains, at_once, watcher, warm)
+        return run_jobs(chains, at_once, overseer, warm)
 
 
 def _counting(total: int) -> Callable[[Ended], None]:
@@ -65,7 +67,15 @@ def _lacks_measures(plan: Plan, standing: Standing) -> bool:
 def _job(plan: Plan, standing: Standing) -> Job:
     path = plan.path(standing.config)
     log = plan.folder / LOGS / "measures.log"
-    return Job(standing.name, MEASURING, ("measure", str(path)), path, log)
+    return Job(standing.name, MEASURING, reference(measure_run), {"folder": str(path)}, path, log)
+
+
+def measure_run(folder: str) -> int:
+    """Measure a run, in a process of its own; what was simulated is kept beside it."""
+    run = RunFolder.open(Path(folder))
+    with locked(run.path):
+        measure(run)
+    return 0
 
 
 def measured_variants(plan: Plan) -> list[VariantMeasures]:
@@ -76,8 +86,7 @@ def measured_variants(plan: Plan) -> list[VariantMeasures]:
     """
     ready = [each for each in plan.configs if is_measured(plan.path(each))]
     return group(
-        (plan.variants[each.readings, each.settings], measure(RunFolder.open(plan.path(each))))
-        for each in ready
+        (plan.variants[Variant.of(each)], measure(RunFolder.open(plan.path(each)))) for each in ready
     )
 
 
@@ -85,13 +94,13 @@ def write_study(variants: Sequence[VariantMeasures], part: Part, folder: Path) -
     """Write tables, and both pictures for each condition; their paths."""
     make_folder(folder)
     tables = {
-        "variants": variant_rows(variants),
-        "readings": effect_rows(variants),
-        "runs": run_rows(variants),
+        "variants": variant_table(variants),
+        "readings": effect_table(variants),
+        "runs": run_table(variants),
     }
-    for name, rows in tables.items():
+    for name, table in tables.items():
         path = folder / f"{part.name}-{name}.csv"
-        write_atomically(path, to_csv(rows).encode())
+        write_atomically(path, table.to_csv().encode())
         yield path
     for condition in Condition:
         own = [each for each in variants if each.condition is condition]

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import Condition, Instruction
+from arm2d import Condition, Instruction, ObjectWord
+from evolution.agents.postevaluation import N_INSTRUCTIONS
 from evolution.agents.subtasks import SUBTASKS, AgentClass
+from evolution.report.columns import PlainTable
 from evolution.results import published
 from evolution.results.statistics import mean_interval, midranks
 from evolution.search.randomness import Purpose, generator
+from evolution.search.settings import LARGEST_FITNESS
 from evolution.study.measures import RunMeasures
 
 AREAS: Final = ("right", "left")
@@ -39,37 +42,37 @@ class VariantMeasures:
     @property
     def plateaus(self) -> NDArray[np.float64]:
         """[R]."""
-        return np.array([each.plateau for each in self.runs])
+        return np.array([run.plateau for run in self.runs])
 
     @property
     def solved(self) -> NDArray[np.bool_]:
         """Which runs had a genotype that carried out all trials of its generation, [R]."""
-        return np.array([each.first_solved >= 0 for each in self.runs])
+        return np.array([run.solved for run in self.runs])
 
     @property
     def times_to_solve(self) -> NDArray[np.int64]:
         """First generations of those that did, ascending."""
-        return np.sort([each.first_solved for each in self.runs if each.first_solved >= 0])
+        return np.sort([run.first_solved for run in self.runs if run.solved])
 
     @property
     def top_shares(self) -> NDArray[np.float64]:
         """Share of agents in category 10 of the sub-tasks, [R, 4]."""
-        return np.array([each.top_shares for each in self.runs])
+        return np.array([run.top_shares for run in self.runs])
 
     def class_shares(self, kind: AgentClass) -> NDArray[np.float64]:
         """Share of agents in a class, [R]."""
-        return np.array([each.class_shares[kind] for each in self.runs])
+        return np.array([run.class_shares[kind] for run in self.runs])
 
     @property
     def success_by_area(self) -> NDArray[np.float64]:
         """Mean over runs, [9, 2]."""
-        return np.mean([each.success_by_area for each in self.runs], axis=0)
+        return np.mean([run.success_by_area for run in self.runs], axis=0)
 
     @property
     def weakest(self) -> tuple[Instruction, str, float]:
         """The experienced instruction and start area with the lowest success, and that success."""
         order = self.condition.instructions
-        known = [order.index(each) for each in self.condition.experienced]
+        known = [order.index(word) for word in self.condition.experienced]
         success = self.success_by_area[known]
         row, area = np.unravel_index(int(success.argmin()), success.shape)
         return order[known[row]], AREAS[area], float(success.min())
@@ -78,9 +81,9 @@ class VariantMeasures:
 def group(measured: Iterable[tuple[str, RunMeasures]]) -> list[VariantMeasures]:
     """Runs named by their variant, put together in the order in which variants first appear."""
     groups: dict[tuple[str, Condition, int], list[RunMeasures]] = {}
-    for name, each in measured:
-        key = (name, each.config.condition, each.config.settings.generations)
-        groups.setdefault(key, []).append(each)
+    for name, run in measured:
+        key = (name, run.config.condition, run.config.settings.generations)
+        groups.setdefault(key, []).append(run)
     return [
         VariantMeasures(*key, tuple(sorted(runs, key=lambda run: run.config.seed)))
         for key, runs in groups.items()
@@ -93,8 +96,10 @@ def nearest(variants: Sequence[VariantMeasures], n: int = 3) -> list[VariantMeas
     Each is ranked by how far its mean plateau is from the published one, and by how far its mean share of
     agents in category 10 of sub-task I is from Table II's; the sum of both ranks decides.
     """
-    plateau_gaps = np.array([abs(each.plateaus.mean() - published.LARGEST_FITNESS) for each in variants])
-    share_gaps = np.array([abs(each.top_shares[:, 0].mean() - _published_share(each)) for each in variants])
+    plateau_gaps = np.array([abs(variant.plateaus.mean() - LARGEST_FITNESS) for variant in variants])
+    share_gaps = np.array(
+        [abs(variant.top_shares[:, 0].mean() - _published_share(variant)) for variant in variants]
+    )
     order = np.argsort(midranks(plateau_gaps) + midranks(share_gaps), kind="stable")
     return [variants[i] for i in order[:n]]
 
@@ -108,46 +113,92 @@ def interval(values: NDArray[np.float64]) -> tuple[float, float]:
     return mean_interval(values, generator(0, Purpose.STATISTICS))
 
 
-def variant_rows(variants: Sequence[VariantMeasures]) -> Iterable[Sequence[object]]:
-    """One row per variant and condition."""
-    tops = [f"sub-task {name}, category 10{part}" for name in SUBTASKS for part in ("", " low", " high")]
-    classes = [f"runs with {kind} agents" for kind in AgentClass]
-    yield (
-        "variant", "condition", "generations", "runs", "plateau", "plateau low", "plateau high",
-        "best plateau", "runs at 18/7", "runs that solve all trials", "median generation of these", *tops,
-        *classes, "weakest instruction", "from", "its success",
-    )  # fmt: skip
-    for each in variants:
-        times = each.times_to_solve
-        shares = [f"{v:.4f}" for top in each.top_shares.T for v in (top.mean(), *interval(top))]
-        instruction, area, success = each.weakest
-        yield (
-            each.name, str(each.condition), each.generations, len(each.runs),
-            *(f"{v:.4f}" for v in (each.plateaus.mean(), *interval(each.plateaus), each.plateaus.max())),
-            sum(run.at_limit for run in each.runs), int(each.solved.sum()),
-            int(np.median(times)) if len(times) else "",
-            *shares, *(int((each.class_shares(kind) > 0).sum()) for kind in AgentClass),
-            str(instruction), area, f"{success:.3f}",
-        )  # fmt: skip
+def variant_table(variants: Sequence[VariantMeasures]) -> PlainTable[VariantMeasures]:
+    """Every variant and condition in a row."""
+
+    def top_share(subtask: int) -> Callable[[VariantMeasures], NDArray[np.float64]]:
+        return lambda variant: variant.top_shares[:, subtask]
+
+    def runs_with(kind: AgentClass) -> Callable[[VariantMeasures], int]:
+        return lambda variant: int((variant.class_shares(kind) > 0).sum())
+
+    top_shares: dict[str, Callable[[VariantMeasures], object]] = {}
+    for column, subtask in enumerate(SUBTASKS):
+        top_shares |= _mean_columns(f"sub-task {subtask}, category 10", top_share(column))
+    return PlainTable(
+        {
+            "variant": lambda variant: variant.name,
+            "condition": lambda variant: variant.condition,
+            "generations": lambda variant: variant.generations,
+            "runs": lambda variant: len(variant.runs),
+            **_mean_columns("plateau", lambda variant: variant.plateaus),
+            "best plateau": lambda variant: f"{variant.plateaus.max():.4f}",
+            "runs at 18/7": lambda variant: sum(run.at_limit for run in variant.runs),
+            "runs that solve all trials": lambda variant: variant.solved.sum(),
+            "median generation of these": lambda variant: (
+                int(np.median(variant.times_to_solve)) if variant.solved.any() else ""
+            ),
+            **top_shares,
+            **{f"runs with {kind} agents": runs_with(kind) for kind in AgentClass},
+            "weakest instruction": lambda variant: variant.weakest[0],
+            "from": lambda variant: variant.weakest[1],
+            "its success": lambda variant: f"{variant.weakest[2]:.3f}",
+        },
+        variants,
+    )
 
 
-def run_rows(variants: Sequence[VariantMeasures]) -> Iterable[Sequence[object]]:
-    """One row per run; third-action columns are INDICATE's or IGNORE's, by condition."""
-    tops = [f"sub-task {name}, category 10" for name in SUBTASKS]
-    names = [
-        f"{action} {thing}" for action in ("MOVE", "TOUCH", "third") for thing in ("Blue", "Green", "Red")
-    ]
-    columns = [f"{name}, {area}" for name in names for area in AREAS]
-    yield (
-        "variant", "condition", "generations", "seed", "plateau", "first generation that solved all trials",
-        "share of late generations that did", *tops, *(str(kind) for kind in AgentClass), *columns,
-    )  # fmt: skip
-    for variant in variants:
-        for run in variant.runs:
-            yield (
-                variant.name, str(variant.condition), variant.generations, run.config.seed,
-                f"{run.plateau:.4f}", run.first_solved if run.first_solved >= 0 else "never",
-                f"{run.solved_late:.3f}", *(f"{share:.4f}" for share in run.top_shares),
-                *(f"{run.class_shares[kind]:.4f}" for kind in AgentClass),
-                *(f"{share:.3f}" for share in run.success_by_area.ravel()),
-            )  # fmt: skip
+def _mean_columns(
+    name: str, values: Callable[[VariantMeasures], NDArray[np.float64]]
+) -> dict[str, Callable[[VariantMeasures], object]]:
+    """The mean over runs of one number of theirs, and both ends of its interval."""
+    return {
+        name: lambda variant: f"{values(variant).mean():.4f}",
+        f"{name} low": lambda variant: f"{interval(values(variant))[0]:.4f}",
+        f"{name} high": lambda variant: f"{interval(values(variant))[1]:.4f}",
+    }
+
+
+class MeasuredRun(NamedTuple):
+    """A run of a variant."""
+
+    variant: VariantMeasures
+    measures: RunMeasures
+
+
+def run_table(variants: Sequence[VariantMeasures]) -> PlainTable[MeasuredRun]:
+    """Every run in a row; third-action columns are INDICATE's or IGNORE's, by condition."""
+
+    def top_share(subtask: int) -> Callable[[MeasuredRun], str]:
+        return lambda run: f"{run.measures.top_shares[subtask]:.4f}"
+
+    def class_share(kind: AgentClass) -> Callable[[MeasuredRun], str]:
+        return lambda run: f"{run.measures.class_shares[kind]:.4f}"
+
+    def success(instruction: int, area: int) -> Callable[[MeasuredRun], str]:
+        return lambda run: f"{run.measures.success_by_area[instruction, area]:.3f}"
+
+    successes = {
+        f"{ACTIONS[instruction // 3]} {ObjectWord(instruction % 3).name.capitalize()}, {name}": success(
+            instruction, area
+        )
+        for instruction in range(N_INSTRUCTIONS)
+        for area, name in enumerate(AREAS)
+    }
+    return PlainTable(
+        {
+            "variant": lambda run: run.variant.name,
+            "condition": lambda run: run.variant.condition,
+            "generations": lambda run: run.variant.generations,
+            "seed": lambda run: run.measures.config.seed,
+            "plateau": lambda run: f"{run.measures.plateau:.4f}",
+            "first generation that solved all trials": lambda run: (
+                run.measures.first_solved if run.measures.solved else "never"
+            ),
+            "share of late generations that did": lambda run: f"{run.measures.solved_late:.3f}",
+            **{f"sub-task {name}, category 10": top_share(i) for i, name in enumerate(SUBTASKS)},
+            **{kind: class_share(kind) for kind in AgentClass},
+            **successes,
+        },
+        [MeasuredRun(variant, measures) for variant in variants for measures in variant.runs],
+    )

@@ -6,12 +6,13 @@ import os
 import random
 import resource
 import subprocess
-import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Final
 
+from arm2d.files import handle_to_overwrite
 from evolution.answers import BAD_INPUT
+from evolution.child import python
 from evolution.runs.folder import CHAMPIONS, CHECKPOINT, RunFolder
 from evolution.trust.killing import TortureError
 from evolution.trust.repair import repair
@@ -60,7 +61,8 @@ def damage_and_repair(run: Path, rng: random.Random, tally: Tally, at_once: int 
     for file in rng.sample(files, min(at_once, len(files))):
         how = rng.choice(sorted(DAMAGES))
         before[file] = file.read_bytes()
-        file.write_bytes(DAMAGES[how](before[file], rng))
+        with os.fdopen(handle_to_overwrite(file), "wb") as damaged:
+            damaged.write(DAMAGES[how](before[file], rng))
         tally.damages[how, stage_of(file)] += 1
     notes: list[str] = []
     repair(run, notes.append)
@@ -109,7 +111,7 @@ def _must_be_refused(
 ) -> None:
     """Run a command that has to fail as bad input does, with nothing half-written."""
     done = subprocess.run(  # noqa: S603 - our own program
-        [sys.executable, "-m", "evolution", *command], capture_output=True, text=True, preexec_fn=prepare
+        python("-m", "evolution", *command), capture_output=True, text=True, preexec_fn=prepare
     )
     if done.returncode != BAD_INPUT or sentence not in done.stderr or done.stderr.count("\n") != 1:
         raise TortureError(f"expected one sentence with {sentence!r}, but had: {done.stderr or done.stdout}")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
-import sys
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -11,11 +11,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
+from arm2d.files import handle_to_overwrite, is_temporary
 from evolution.answers import BAD_INPUT
+from evolution.child import python
+from evolution.runs.lock import last_word
 from evolution.runs.storage import make_folder
-from evolution.trust.stages import RUN_FOLDERS, SHARES, Schedule, is_temporary, stage_of, temporaries
+from evolution.trust.stages import RUN_FOLDERS, SHARES, Schedule, stage_of, temporaries
 from evolution.trust.tally import ORPHAN, PARENT, STARTER, WORKER, Tally
-from evolution.trust.victims import holder_of, kill, members, names, session_of, starts_workers
+from evolution.trust.victims import kill, members, names, session_of, starts_workers
 from evolution.trust.watch import OpenedFiles
 
 LOG: Final = "torture.log"
@@ -73,7 +76,7 @@ class Ordeal:
             return self.parents[-1]
         if file.parent.name in UNLOCKED:
             return next((each for each in members(self.parents[-1]) if names(each, run)), 0)
-        return holder_of(run)
+        return last_word(run).process
 
 
 # Results about a run that are written without holding it.
@@ -114,9 +117,9 @@ def _make_watched_folders(ordeal: Ordeal) -> list[Path]:
 def _one_parent(ordeal: Ordeal, opened: OpenedFiles) -> int:
     """From a start of the parent to its end; its exit code."""
     ordeal.tally.starts += 1
-    with (ordeal.folder / LOG).open("wb") as log:
+    with os.fdopen(handle_to_overwrite(ordeal.folder / LOG), "wb") as log:
         parent = subprocess.Popen(  # noqa: S603 - our own program
-            [sys.executable, "-m", "evolution", *ordeal.command],
+            python("-m", "evolution", *ordeal.command),
             stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
         )  # fmt: skip
     ordeal.parents.append(parent.pid)
@@ -125,7 +128,7 @@ def _one_parent(ordeal: Ordeal, opened: OpenedFiles) -> int:
     due = time.monotonic() + rng.uniform(0.0, OTHER_KILL_WITHIN)
     while parent.poll() is None:
         for each in opened.wait(WAIT):
-            if is_temporary(each):
+            if is_temporary(each.name):
                 _perhaps_kill_at_a_write(ordeal, each)
         if is_due and time.monotonic() >= due and not ordeal.over:
             is_due = False
@@ -147,7 +150,7 @@ def _kill(ordeal: Ordeal, victim: int) -> None:
     who = _role(ordeal, victim)
     if not any(kill(victim, each) for each in reversed(ordeal.parents)):
         return
-    held = [each for each in ordeal.runs if holder_of(each) == victim]
+    held = [each for each in ordeal.runs if last_word(each).process == victim]
     left = _unfinished(ordeal.folder) - ordeal.counted
     stages = sorted(stage_of(each) for each, _ in left if _may_have_written(ordeal, victim, held, each))
     if stages:

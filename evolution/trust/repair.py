@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from evolution.agents import postevaluation, solving, transition_test
+from evolution.agents import solving
+from evolution.agents.parts import late_spans
+from evolution.agents.postevaluation import POST_EVALUATION
+from evolution.agents.transitions import TRANSITION_TEST
 from evolution.runs.champion import keep_champions
 from evolution.runs.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
 from evolution.runs.folder import CHAMPIONS, RunFolder
@@ -19,7 +22,7 @@ from evolution.search.scoring import score_population
 Tell = Callable[[str], None]
 
 
-def repair(path: Path, on_note: Tell = lambda note: None) -> int:
+def repair(path: Path | str, on_note: Tell = lambda note: None) -> int:
     """Make every file of a run sound again, with the bits it had before.
 
     Tests that were not yet made are left to `wordarm postevaluate`.
@@ -37,7 +40,7 @@ def repair(path: Path, on_note: Tell = lambda note: None) -> int:
         OSError: If the folder cannot be written.
     """
     folder = RunFolder.open(path)
-    with locked(path):
+    with locked(folder.path):
         n_repaired, population = _repair_parts(folder, on_note)
         n_repaired += _repair_checkpoint(folder, population, on_note)
         if len(folder.finished_spans()) == len(folder.spans):
@@ -102,9 +105,9 @@ def _repair_champions(folder: RunFolder, on_note: Tell) -> int:
 def _repair_tests(folder: RunFolder, on_note: Tell) -> int:
     """Make again what is damaged of both tests: first the instructions, on which the transitions rest."""
     n_repaired = 0
-    for test in (postevaluation, transition_test):
-        for span in postevaluation.late_spans(folder):
-            path = test.part_path(folder, span)
+    for test in (POST_EVALUATION, TRANSITION_TEST):
+        for span in late_spans(folder):
+            path = test.path(folder, span)
             if path.exists() and (found := _fault(lambda test=test, span=span: test.read_part(folder, span))):
                 test.write_part(folder, span)
                 on_note(f"{path.parent.name}/{path.name}: {found}; tested its agents again")

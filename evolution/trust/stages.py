@@ -6,7 +6,10 @@ import random
 from pathlib import Path
 from typing import Final
 
-from evolution.agents import postevaluation, solving, transition_test
+from arm2d.files import final_name, is_temporary
+from evolution.agents import solving
+from evolution.agents.postevaluation import POST_EVALUATION
+from evolution.agents.transitions import TRANSITION_TEST
 from evolution.runs.folder import CHAMPIONS, CHECKPOINT, CONFIG, META, PARTS
 
 # What is written, and the share of its writes at which somebody is killed. What comes seldom is hit more
@@ -31,32 +34,22 @@ NAMES: Final = {
     solving.FILE: "solved trials", "report.html": "report",
 }  # fmt: skip
 FOLDERS: Final = {
-    PARTS: "part", postevaluation.FOLDER: "post-evaluation part", transition_test.FOLDER: "transition part",
+    PARTS: "part", POST_EVALUATION.folder: "post-evaluation part", TRANSITION_TEST.folder: "transition part",
     "lineage": "lineage", "behaviour": "behaviour", "results": "results",
 }  # fmt: skip
 # Folders of a run that can be made, and watched, before anything stands in them.
-RUN_FOLDERS: Final = (PARTS, postevaluation.FOLDER, transition_test.FOLDER, "lineage", "behaviour")
+RUN_FOLDERS: Final = (PARTS, POST_EVALUATION.folder, TRANSITION_TEST.folder, "lineage", "behaviour")
 
 
 def stage_of(path: Path) -> str:
     """What a file, or the temporary file that becomes it, is."""
-    name = final_name(path)
+    name = final_name(path.name)
     return NAMES.get(name) or FOLDERS.get(path.parent.name, "other file")
-
-
-def final_name(path: Path) -> str:
-    """The name a file will have once it is whole."""
-    return path.name.removeprefix(".").removesuffix(".tmp") if is_temporary(path) else path.name
-
-
-def is_temporary(path: Path) -> bool:
-    """Whether a file is being written, or was when its writer died."""
-    return path.name.startswith(".") and path.name.endswith(".tmp")
 
 
 def temporaries(folder: Path) -> set[Path]:
     """The files below a folder that are unfinished."""
-    return {each for each in folder.rglob(".*.tmp") if is_temporary(each)}
+    return {each for each in folder.rglob(".*.tmp") if is_temporary(each.name)}
 
 
 class Schedule:
@@ -72,6 +65,6 @@ class Schedule:
 
     def draw(self, file: Path) -> random.Random:
         """The generator of the next event of a file; the same for the same event."""
-        name = f"{file.parent.parent.name}/{file.parent.name}/{final_name(file)}"
+        name = f"{file.parent.parent.name}/{file.parent.name}/{final_name(file.name)}"
         self._seen[name] = n = self._seen.get(name, 0) + 1
         return random.Random(f"{self._place} {name} {n}")  # noqa: S311 - no secret

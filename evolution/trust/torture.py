@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import os
 import random
 import shutil
 import subprocess
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
 from arm2d import Condition
-from evolution.experiments.plan import Plan, evolve_arguments
-from evolution.runs.storage import make_folder
+from evolution.child import python
+from evolution.experiments.plan import Plan
+from evolution.runs.storage import make_folder, write_atomically
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.trust.disturbances import (
@@ -34,6 +35,8 @@ WORKERS: Final = 2
 # What depends on when things happened; everything else must have the bits of the undisturbed experiment.
 COMPARED: Final = (".npz", ".csv", ".toml")
 NOT_COMPARED: Final = "times.csv"
+# In every folder that may be removed.
+MARK: Final = "made-by-torture"
 
 
 @dataclass(frozen=True)
@@ -68,8 +71,11 @@ def torture(what: Torture, tell: Tell, undisturbed: Path | None = None) -> Tally
 
     Raises:
         TortureError: If a promise was broken; the experiment is then left for inspection.
+        ValueError: If something that is not ours stands in the way.
         OSError: If the folder cannot be written, or not watched.
     """
+    for left in sorted(what.folder.glob("tortured-*")):
+        _refuse_foreign(left)
     make_folder(what.folder)
     tally = Tally()
     if undisturbed is None:
@@ -91,7 +97,7 @@ def _make_undisturbed(what: Torture, tell: Tell) -> Path:
     path = what.plan(UNDISTURBED).folder
     tell(f"{path}: an experiment that nobody disturbs")
     done = subprocess.run(  # noqa: S603 - our own program
-        [sys.executable, "-m", "evolution", *_command(what, path)], capture_output=True, text=True
+        python("-m", "evolution", *_command(what, path)), capture_output=True, text=True
     )
     if done.returncode:
         raise TortureError(f"undisturbed, it ended with exit code {done.returncode}: {done.stdout[-500:]}")
@@ -101,9 +107,10 @@ def _make_undisturbed(what: Torture, tell: Tell) -> Path:
 def _one_round(what: Torture, undisturbed: Path, tally: Tally, tell: Tell) -> None:
     """One experiment: refused, killed, finished, damaged, repaired, compared."""
     plan, rng = what.plan(f"tortured-{tally.rounds + 1}"), random.Random(f"{what.seed} {tally.rounds}")  # noqa: S311
-    shutil.rmtree(plan.folder, ignore_errors=True)
+    _make_anew(plan.folder)
     runs = tuple(plan.path(each) for each in plan.configs)
-    evolve = evolve_arguments(plan.configs[0], runs[0])
+    condition = plan.configs[0].condition
+    evolve = ("evolve", f"--condition={condition}", *_flags(what.settings), f"--output={runs[0]}")
     refuse_where_files_cannot_grow(evolve, runs[0], tally)
     refuse_where_nothing_can_be_written(evolve, runs[0], tally)
     command, schedule = _command(what, plan.folder), Schedule(what.seed, tally.rounds)
@@ -116,10 +123,29 @@ def _one_round(what: Torture, undisturbed: Path, tally: Tally, tell: Tell) -> No
 
 
 def _command(what: Torture, folder: Path) -> tuple[str, ...]:
-    """What reproduces the plan, after `python -m evolution`."""
-    values = what.settings.to_mapping().items()
-    settings = (f"--{name.replace('_', '-')}={value}" for name, value in values)
-    return ("reproduce", "--runs=1", f"--jobs={WORKERS}", *settings, f"--output={folder}")
+    """The user's command that reproduces the plan, after `wordarm`."""
+    return ("reproduce", "--runs=1", f"--jobs={WORKERS}", *_flags(what.settings), f"--output={folder}")
+
+
+def _flags(settings: Settings) -> list[str]:
+    return [f"--{name.replace('_', '-')}={value}" for name, value in settings.to_mapping().items()]
+
+
+def _make_anew(folder: Path) -> None:
+    """An empty folder with our mark, in the place of one that an earlier torture left; refuse any other."""
+    _refuse_foreign(folder)
+    shutil.rmtree(folder, ignore_errors=True)
+    make_folder(folder)
+    write_atomically(folder / MARK, b"wordarm torture made this folder, and removes it.\n")
+
+
+def _refuse_foreign(folder: Path) -> None:
+    """Refuse to remove what no torture made."""
+    if os.path.lexists(folder) and (folder.is_symlink() or not (folder / MARK).is_file()):
+        raise ValueError(
+            f"{folder} is not of an earlier torture (it has no {MARK}), and would be removed; "
+            "give another folder, or move it away"
+        )
 
 
 def _compare(expected: dict[str, bytes], found: dict[str, bytes], folder: Path) -> None:

@@ -136,7 +136,7 @@ def _compare_ends(
     try:
         recorded = folder.read_arrays(path)
     except FileNotFoundError:
-        repair = f"compute it again with: wordarm repair {folder.path}"
+        repair = f"compute it again with: wordarm verify {folder.path} --repair"
         findings.damage.append(str(DamagedFileError(path, "it is missing", repair)))
     except DamagedFileError as error:
         findings.damage.append(str(error))

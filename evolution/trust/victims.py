@@ -6,6 +6,7 @@ one's own tells them from all others.
 
 from __future__ import annotations
 
+import json
 import os
 import select
 import signal
@@ -13,10 +14,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
-from evolution.runs.folder import LOCK
+from evolution.child import reference
+from evolution.experiments.fork_server import fork_workers
 
 PROCESSES: Final = Path("/proc")
-LONGEST_NUMBER: Final = 20
 
 
 def members(session: int) -> list[int]:
@@ -33,19 +34,10 @@ def session_of(process: int) -> int:
         return 0
 
 
-def holder_of(run: Path) -> int:
-    """The process that held a run last, or still does; 0 if none is known."""
-    try:
-        return int((run / LOCK).read_text(encoding="ascii")[:LONGEST_NUMBER])
-    except (OSError, ValueError):
-        return 0
-
-
 def names(process: int, folder: Path) -> bool:
-    """Whether the command line of a process names a folder as a word of its own."""
+    """Whether the command line of a process names a folder among the arguments of its call."""
     with suppress(OSError):
-        words = (PROCESSES / str(process) / "cmdline").read_bytes().split(b"\0")
-        return os.fsencode(folder) in words
+        return json.dumps(str(folder)).encode() in (PROCESSES / str(process) / "cmdline").read_bytes()
     return False
 
 
@@ -53,7 +45,7 @@ def starts_workers(process: int, parent: int) -> bool:
     """Whether a process is the one that forks the parent's workers; these share its command line."""
     with suppress(OSError):
         place = PROCESSES / str(process)
-        forks = b"evolution.experiments.fork_server" in (place / "cmdline").read_bytes().split(b"\0")
+        forks = reference(fork_workers).encode() in (place / "cmdline").read_bytes().split(b"\0")
         after_name = (place / "stat").read_text(encoding="ascii", errors="replace").rpartition(")")[2]
         return forks and int(after_name.split()[1]) == parent
     return False

@@ -11,7 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Final
 
-# An unfinished file that a dead process left behind is opened again, not made: so opening tells.
+# A file that is made is opened too; so is one that a dead process left behind.
 OPENED: Final = 0x20
 NOT_BLOCKING: Final = os.O_NONBLOCK | os.O_CLOEXEC
 # struct inotify_event: watch, mask, cookie, length of the name that follows.

@@ -8,11 +8,12 @@ from __future__ import annotations
 import csv
 import hashlib
 import multiprocessing
+import os
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import astuple, dataclass, fields
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, Final, Literal
 
@@ -20,15 +21,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
+from arm2d.cache import sources_digest
+from arm2d.files import handle_to_append, read_file, write_whole
+from arm2d.records import brief
 from models.robots import get_robot
 
 Loop = Literal["open", "delayed", "geometric", "camera"]
 AREAS: Final = ("right", "left")
 MARK: Final = "# "
+LARGEST: Final = 256 * 2**20  # [bytes], a million trials
+# Whose code decides what becomes of a trial in either world.
+PACKAGES: Final = ("arm2d", "models", "mujoco_port")
+SAFE_PATH: Final = "PYTHONSAFEPATH"
 
 
 @dataclass(frozen=True)
-class Agent:
+class Candidate:
     """Whom to try.
 
     Attributes:
@@ -42,6 +50,8 @@ class Agent:
     genotype: NDArray[np.float64]
     instructions: tuple[Instruction, ...]
     readings: Readings
+
+    __repr__ = brief
 
 
 @dataclass(frozen=True)
@@ -75,14 +85,14 @@ class Outcome:
 class Job:
     """One trial to carry out."""
 
-    agent: Agent
+    agent: Candidate
     loop: Loop
     trial: Trials
     area: str
     start: int
 
 
-def jobs(agents: Sequence[Agent], loops: Sequence[Loop], n_starts: int, seed: int) -> list[Job]:
+def jobs(agents: Sequence[Candidate], loops: Sequence[Loop], n_starts: int, seed: int) -> list[Job]:
     """All instructions from `n_starts` fresh starts in each area, the same for every agent and loop."""
     listed = []
     for agent in agents:
@@ -108,14 +118,15 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
     left = listed[len(known) :]
     if not left:
         return
-    with path.open("a", encoding="utf-8", newline="") as file:
+    with os.fdopen(handle_to_append(path), "a", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         if not known and file.tell() == 0:
             file.write(mark + "\n")
             writer.writerow(field.name for field in fields(Outcome))
         # Spawned, not forked: a forked child would share the parent's state of drawing and linear algebra.
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(processes, context, initializer=_move_in, initargs=(robot,)) as pool:
+        pool = ProcessPoolExecutor(processes, context, initializer=_move_in, initargs=(robot,))
+        with _current_folder_is_no_library(), pool:
             try:
                 for outcome in pool.map(carry_out_job, left):
                     writer.writerow(astuple(outcome))
@@ -130,15 +141,25 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
                 pool.shutdown(wait=False, cancel_futures=True)
 
 
+@contextmanager
+def _current_folder_is_no_library() -> Iterator[None]:
+    """While open, a Python that is started imports nothing from where it is started."""
+    before = os.environ.get(SAFE_PATH)
+    os.environ[SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[SAFE_PATH]
+        else:
+            os.environ[SAFE_PATH] = before
+
+
 def fingerprint(listed: Sequence[Job], robot: str) -> str:
     """What determines the outcomes: sources, robot, genotypes and starts."""
-    digest = hashlib.sha256(robot.encode())
-    for package in ("arm2d", "models", "mujoco_port"):
-        for source in sorted(files(package).iterdir(), key=lambda each: each.name):
-            if source.name.endswith((".py", ".xml")):
-                digest.update(source.read_bytes())
+    digest = hashlib.sha256(f"{robot} {sources_digest(*PACKAGES)}".encode())
     for job in listed:
-        digest.update(f"{job.agent.name} {job.loop} {job.agent.readings}".encode())
+        digest.update(f"{job.agent.name} {job.loop} {job.agent.readings.to_mapping()}".encode())
         for array in (
             job.agent.genotype,
             job.trial.alpha,
@@ -152,7 +173,10 @@ def fingerprint(listed: Sequence[Job], robot: str) -> str:
 
 def _read(path: Path, mark: str) -> list[Outcome]:
     """The outcomes in a file of ours; a last line that was not written to its end is cut off."""
-    whole = path.read_text(encoding="utf-8")
+    try:
+        whole = read_file(path, LARGEST).decode()
+    except ValueError as error:
+        raise ValueError(f"{path} cannot be read ({error}); choose another file") from None
     if not whole:
         return []
     if not whole.startswith(mark + "\n"):
@@ -161,7 +185,7 @@ def _read(path: Path, mark: str) -> list[Outcome]:
         )
     lines = whole[: whole.rfind("\n") + 1]
     if lines != whole:
-        path.write_text(lines, encoding="utf-8")
+        write_whole(path, lines.encode())
     rows = list(csv.reader(lines.splitlines()[2:]))
     try:
         return [_outcome(row) for row in rows]

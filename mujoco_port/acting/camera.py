@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from arm2d import Readings
 from arm2d.constants import CHORD_END_DISTANCE, S1_LENGTH
-from arm2d.view import camera_position
+from arm2d.geometry import camera_position
 from models.build import VISUAL_GROUP
 from models.physics import EYE, OBJECTS
 from mujoco_port.acting.control import Body

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from models.limits import MotorLimits
 from mujoco_port.acting.rollout import PhysicalRecord
 from mujoco_port.reach.kinematics import ArmKinematics
@@ -25,6 +26,8 @@ class Exertion:
     position: NDArray[np.float64]
     velocity: NDArray[np.float64]
     torque: NDArray[np.float64]
+
+    __repr__ = brief
 
     def with_(self, other: Exertion) -> Exertion:
         """The larger of two trials' parts, joint by joint."""

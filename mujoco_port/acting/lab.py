@@ -1,7 +1,6 @@
 """Trials on an acting robot: the public face of the physics.
 
-from mujoco_port.acting.lab import Lab
-record, verdict = Lab(get_robot("icub")).open_loop(genotype, trial, readings)
+record, verdict = mujoco_port.Lab("icub").open_loop(genotype, trial, readings)
 """
 
 from __future__ import annotations
@@ -11,13 +10,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import ActionWord, Instruction, ObjectWord, Readings, Trials
-from models.robots import Robot
+from arm2d import ActionWord, Instruction, ObjectWord, Readings, TrialRecord, Trials
+from arm2d.constants import DT
+from models.robots import Robot, get_robot
 from mujoco_port.acting.closed_loop import ClosedLoop
 from mujoco_port.acting.control import Body
 from mujoco_port.acting.eyes import geometric_eyes
 from mujoco_port.acting.open_loop import OpenLoop, planar_angles
-from mujoco_port.acting.rollout import Eyes, PhysicalRecord, Pilot, carry_out
+from mujoco_port.acting.rollout import MOST_STEPS, Eyes, PhysicalRecord, Pilot, carry_out
 from mujoco_port.acting.verdict import Verdict, judge
 from mujoco_port.reach.kinematics import ArmKinematics
 
@@ -26,7 +26,7 @@ class Lab:
     """A robot at its table, ready for one trial after the other.
 
     Args:
-        robot: Its record.
+        robot: Its record, or its name.
 
     Attributes:
         body: The robot in MuJoCo.
@@ -36,9 +36,10 @@ class Lab:
         NoPhysicsError: If the robot's record says too little for it to act.
     """
 
-    def __init__(self, robot: Robot) -> None:
-        self.body = Body(robot)
-        self.kinematics = ArmKinematics(robot)
+    def __init__(self, robot: Robot | str = "icub") -> None:
+        chosen = get_robot(robot) if isinstance(robot, str) else robot
+        self.body = Body(chosen)
+        self.kinematics = ArmKinematics(chosen)
 
     def open_loop(
         self, genotype: NDArray[np.float64], trial: Trials, readings: Readings, delay: int = 0
@@ -77,6 +78,21 @@ class Lab:
         record, verdict = self.carry_out(pilot, instruction, trial.discs[0], readings, eyes)
         return replace(record, inputs=np.array(pilot.sensed)), verdict
 
+    def follow(self, record: TrialRecord) -> tuple[PhysicalRecord, Verdict]:
+        """Let the robot do what S2 does in a recorded trial, to its end, such as one of `mujoco_port.drive`.
+
+        Raises:
+            ValueError: If it is longer than a trial on the robot can be.
+            OutOfReachError: If the robot cannot reach a place.
+        """
+        if record.steps > MOST_STEPS:
+            raise ValueError(
+                f"this trial has {record.steps} steps of {DT:g} s; on an acting robot it can have at most "
+                f"{MOST_STEPS}"
+            )
+        orders = OpenLoop(zip(record.alpha.tolist(), record.beta.tolist(), strict=True))
+        return self.carry_out(orders, record.instruction, record.discs[0], record.readings, to_the_end=True)
+
     def carry_out(
         self,
         pilot: Pilot,
@@ -84,8 +100,10 @@ class Lab:
         discs: NDArray[np.float64],
         readings: Readings,
         eyes: Eyes | None = None,
+        *,
+        to_the_end: bool = False,
     ) -> tuple[PhysicalRecord, Verdict]:
-        """Carry out a trial under anybody's orders, until its verdict is certain."""
+        """Carry out a trial under anybody's orders, until its verdict is certain or the orders end."""
         record = carry_out(
             self.body,
             self.kinematics,
@@ -93,7 +111,7 @@ class Lab:
             geometric_eyes(self.body) if eyes is None else eyes,
             instruction,
             discs,
-            lambda so_far: judge(so_far, readings).certain,
+            lambda so_far: not to_the_end and judge(so_far, readings).certain,
         )
         return record, judge(record, readings)
 

@@ -54,7 +54,7 @@ class OpenLoop:
     """Orders that follow the 2D world, which knows nothing of the robot.
 
     Args:
-        angles: As `planar_angles` gives them.
+        angles: As `planar_angles` gives them; two at least.
     """
 
     def __init__(self, angles: Iterator[Angles]) -> None:
@@ -64,7 +64,7 @@ class OpenLoop:
         """The start and the first step."""
         return next(self._angles), next(self._angles)
 
-    def after(self, so_far: PhysicalRecord, seen: NDArray[np.float64]) -> Angles:
+    def after(self, so_far: PhysicalRecord, seen: NDArray[np.float64]) -> Angles | None:
         """The step after, whatever has become of the robot so far, and whatever it sees."""
         del so_far, seen
-        return next(self._angles)
+        return next(self._angles, None)

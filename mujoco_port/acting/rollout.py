@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction
 from arm2d.constants import MAX_STEPS
+from arm2d.records import brief
 from mujoco_port.acting.contacts import RIGHT_SIDE, ContactSensors
 from mujoco_port.acting.control import Body
 from mujoco_port.acting.stepping_over import stepping_over
@@ -103,6 +104,8 @@ class PhysicalRecord:
     contact: NDArray[np.uint8]
     depth: NDArray[np.float64]
     inputs: NDArray[np.float64] | None = None
+
+    __repr__ = brief
 
     @property
     def steps(self) -> int:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from arm2d.constants import DT
+from arm2d.records import brief
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,8 @@ class Motion:
     angles: NDArray[np.float64]
     velocities: NDArray[np.float64]
     accelerations: NDArray[np.float64]
+
+    __repr__ = brief
 
 
 def motion_between(knots: NDArray[np.float64], n_physics_steps: int) -> Motion:

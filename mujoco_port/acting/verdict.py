@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from arm2d import ActionWord, Readings
 from arm2d.constants import DT, GOOD_STEPS_FOR_SUCCESS
-from arm2d.view import in_view
+from arm2d.geometry import in_view
 from mujoco_port.acting.contacts import RIGHT_SIDE
 from mujoco_port.acting.rollout import PhysicalRecord
 

@@ -10,7 +10,7 @@ from typing import Final
 
 from mujoco_port.doctor.children import Attempt, attempt
 from mujoco_port.doctor.findings import Finding, State
-from mujoco_port.film.gl import BACK_ENDS, PACKAGES, PROBE, VARIABLE, probe_environment, works
+from mujoco_port.film.gl import BACK_ENDS, PACKAGES, PROBE, VARIABLE, hindrances, probe_environment, works
 
 TOPIC: Final = "drawing without a screen"
 LOAD: Final = "import ctypes, sys; ctypes.CDLL(sys.argv[1])"
@@ -116,6 +116,9 @@ def broken_library(path: Path) -> str:
 
 def driver_of_egl() -> str:
     """What to do if EGL's loader is there and finds no driver that draws."""
+    if names := hindrances():
+        given = " and ".join(f"{name}={os.environ[name]}" for name in names)
+        return f"EGL draws without {given}: unset {' '.join(names)}"
     for variable in VENDOR_VARIABLES:
         if variable in os.environ:
             return f"EGL looks for drivers where {variable} says, and none there draws: unset {variable}"

@@ -15,13 +15,27 @@ from mujoco_port.doctor.findings import Finding, State
 TOPIC: Final = "machine"
 CGROUP_LIMIT: Final = Path("/sys/fs/cgroup/cpu.max")
 SCARCE_BYTES, TOO_LITTLE_BYTES = 1e9, 5e7  # the paper's twenty runs take 0.4 GB, a video some MB
-CACHE: Final = "from arm2d.compiling import cache_folder; print(cache_folder() or '')"
+CACHE: Final = """
+from arm2d.cache import damaged_files, find_place, lack_of_room
+place = find_place()
+print("; ".join(place.refusals))
+print(place.folder or "")
+print(len(damaged_files(place.folder)) if place.folder else 0)
+print(lack_of_room(place.folder) if place.folder else "")
+import arm2d.running
+"""
+CACHE_MOVE: Final = (
+    "export NUMBA_CACHE_DIR=... to a folder of your own on a disk with room, that nobody else can change"
+)
 ENCODER: Final = """
-import imageio_ffmpeg, subprocess
-program = imageio_ffmpeg.get_ffmpeg_exe()
-print(program, imageio_ffmpeg.get_ffmpeg_version())
-listed = subprocess.run([program, "-hide_banner", "-encoders"], capture_output=True, text=True, check=True)
-assert "libx264" in listed.stdout, f"{program} has no H.264 encoder (libx264)"
+import sys
+from arm2d.films import NoEncoderError, find_encoder
+try:
+    print(find_encoder())
+except NoEncoderError as error:
+    sys.exit(str(error).split(";")[0])
+import imageio_ffmpeg
+print(imageio_ffmpeg.get_ffmpeg_version())
 """
 
 
@@ -58,17 +72,21 @@ def cache() -> Finding:
         return Finding(
             TOPIC, "compiled code", State.MISSING, asked.reason, "mend the packages named above first"
         )
-    if folder := asked.lines[-1]:
-        warm = any(Path(folder).rglob("*.nbi"))
-        state = "filled" if warm else "empty, the first command compiles for some 10 s"
-        return Finding(TOPIC, "compiled code", State.WORKS, f"{folder} ({state})")
-    return Finding(
-        TOPIC,
-        "compiled code",
-        State.NOTE,
-        "no cache folder can be written to, so every process compiles anew, some 10 s each",
-        'export NUMBA_CACHE_DIR="$PWD/.numba", or another folder that can be written to',
-    )
+    refusals, folder, damaged, lack = asked.lines[-4:]
+    if not folder:
+        text = f"{refusals}, so every process compiles anew, some 10 s each"
+        return Finding(TOPIC, "compiled code", State.NOTE, text, CACHE_MOVE)
+    warm = any(Path(folder).rglob("*.nbi"))
+    state = "filled" if warm else "empty, the first command compiles for some 10 s"
+    if damaged != "0":
+        state += f", {damaged} damaged, to be compiled again when needed"
+    if lack:
+        text = f"{folder} ({state}) takes no more: {lack}; what is missing there is compiled by every process"
+        return Finding(TOPIC, "compiled code", State.NOTE, text, "make room there, or " + CACHE_MOVE)
+    if refusals:
+        text = f"{refusals}; {folder} takes its place ({state})"
+        return Finding(TOPIC, "compiled code", State.NOTE, text, CACHE_MOVE)
+    return Finding(TOPIC, "compiled code", State.WORKS, f"{folder} ({state})")
 
 
 def disk(folder: Path) -> Finding:
@@ -89,10 +107,11 @@ def encoder() -> Finding:
     """The program that writes videos."""
     asked = attempt(ENCODER)
     if asked.works:
-        return Finding(TOPIC, "ffmpeg", State.WORKS, " ".join(asked.lines[-1].rsplit(" ", 1)[::-1]))
+        program, version = asked.lines[-2:]
+        return Finding(TOPIC, "ffmpeg", State.WORKS, f"{version} {program}")
     set_by_hand = "IMAGEIO_FFMPEG_EXE" in os.environ
     move = "unset IMAGEIO_FFMPEG_EXE" if set_by_hand else "pip install --force-reinstall imageio-ffmpeg"
-    return Finding(TOPIC, "ffmpeg", State.MISSING, asked.reason.split(": ", 1)[-1], move)
+    return Finding(TOPIC, "ffmpeg", State.MISSING, asked.reason, move)
 
 
 def robots() -> list[Finding]:

@@ -41,8 +41,10 @@ name = sys.argv[1]
 spec = importlib.util.find_spec(name)
 print(spec.origin if spec else "", flush=True)
 module = importlib.import_module(name)
-with open("/proc/self/maps") as maps:
-    loaded = sorted({line.split()[-1] for line in maps if f"lib{name}" in line})
+with open("/proc/self/maps", errors="surrogateescape") as maps:
+    # A path is the sixth column, and may hold blanks.
+    rows = [line.rstrip("\\n").split(maxsplit=5) for line in maps]
+loaded = sorted({row[5] for row in rows if len(row) == 6 and f"lib{name}" in row[5]})
 print(json.dumps([str(getattr(module, "__version__", "")), loaded]))
 """
 

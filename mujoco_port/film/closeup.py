@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.drawing import FLOOR, INK
+from arm2d.records import brief
 from mujoco_port.film.panel import blank, pixels
 
 if TYPE_CHECKING:
@@ -42,6 +43,8 @@ class CloseUp:
     width: float
     fade: float
     ends: bool
+
+    __repr__ = brief
 
     def strength(self, moment: int) -> float:
         """How clearly the picture is there, from 0 to 1."""

@@ -15,7 +15,7 @@ from rich.progress import track
 from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.constants import DT
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
-from arm2d.video import write_mp4
+from arm2d.films import write_mp4, write_png
 from models.robots import Robot
 from mujoco_port.film.panel import BADGE, FAINT, blank, mark, pixels
 from mujoco_port.film.quality import QUALITIES, Quality
@@ -54,16 +54,12 @@ def write_gallery(
     Raises:
         OSError: If a file cannot be written.
     """
-    import imageio.v3 as imageio
-
     total = max(len(take.steps) for take in takes) + round(HOLD_S * PER_SECOND)
     shown = track(
         frames(takes, robot, title, quality), f"{len(takes)} instructions on {robot.name}", total=total
     )
     write_mp4(shown, path, PER_SECOND)
-    poster = path.with_suffix(".png")
-    imageio.imwrite(poster, last_moments(takes, robot, title))
-    return poster
+    return write_png(last_moments(takes, robot, title), path.with_suffix(".png"))
 
 
 def frames(

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import CHORD_END_DISTANCE
+from arm2d.records import brief
 from models.build import ROBOT_PREFIX
 from models.filmed import eye_joints, finger_joint
 from models.presence import Presence
@@ -38,6 +39,8 @@ class Bearing:
 
     addresses: NDArray[np.int64]
     angles: NDArray[np.float64]
+
+    __repr__ = brief
 
 
 class Head:

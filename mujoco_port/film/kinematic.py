@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from arm2d import TrialRecord
 from arm2d.constants import DT
+from arm2d.records import brief
 from models.robots import Robot
 from mujoco_port.acting.stepping_over import stepping_over
 from mujoco_port.reach.kinematics import ArmKinematics
@@ -34,6 +35,8 @@ class Rollout:
     angles: NDArray[np.float64]
     targets: NDArray[np.float64]
     objects: NDArray[np.float64]
+
+    __repr__ = brief
 
     @property
     def times(self) -> NDArray[np.float64]:

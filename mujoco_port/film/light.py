@@ -16,7 +16,8 @@ from arm2d import Readings
 from arm2d import constants as c
 from arm2d.compiling import compiled
 from arm2d.drawing import CAMERA_RANGE, OBJECT_COLOURS, arm_points
-from arm2d.view import camera_position
+from arm2d.geometry import camera_position
+from arm2d.records import brief
 
 # Half widths [cm].
 S1_HALF, S2_HALF, LINE_HALF = 2.1, 1.5, 0.6
@@ -46,6 +47,8 @@ class Ground:
     places: NDArray[np.float32]
     distance: NDArray[np.float32]
     light: NDArray[np.float32]
+
+    __repr__ = brief
 
 
 def ground(places: NDArray[np.float32], distance: NDArray[np.float32], readings: Readings) -> Ground:

@@ -1,12 +1,12 @@
-"""Putting a trial on an acting robot: the public face of the physics for trials of one agent.
+"""Putting a trial on an acting robot: motors, free objects, contacts, verdicts.
 
-from mujoco_port.film.physical_port import port_physical_trial
-verdict = port_physical_trial(record, genotype, "touch-red.mp4")
+verdict = mujoco_port.port_physical_trial(record, genotype, "touch-red.mp4")
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from arm2d import TrialRecord, Trials
 from models.robots import get_robot
-from mujoco_port.film.gl import choose_back_end
-from mujoco_port.film.port import check_gallery, writable
+from mujoco_port.film.gl import choose_back_end, drawing, refuse_other_renderer
+from mujoco_port.film.port import check_gallery, film_path
 from mujoco_port.film.quality import QualityName, quality_named
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ ClosedLoopName = Literal["geometric", "camera"]
 
 def port_physical_trial(
     record: TrialRecord,
-    genotype: NDArray[np.float64],
+    genotype: NDArray[np.float64] | None = None,
     output: Path | str | None = None,
     *,
     robot: str = "icub",
@@ -40,7 +40,7 @@ def port_physical_trial(
 
     Args:
         record: The trial in the 2D world, with its start.
-        genotype: [84], of the agent.
+        genotype: [84], of the agent; None if there is none: the robot follows the record to its end.
         output: The video; None if none is wanted.
         robot: Name of a record in `models.robots`.
         closed_loop: Where the agent's inputs come from: None, the 2D world; "geometric", the robot's skin and
@@ -51,21 +51,23 @@ def port_physical_trial(
         What became of the instruction on the robot.
 
     Raises:
+        ValueError: If an agent is missing whose loop is to be closed.
         NoPhysicsError: If the robot's record says too little for it to act.
         UnknownRobotError, NoRenderingError, OutOfReachError, OSError: As `port_trial`.
     """
-    path = None if output is None else writable(Path(output), ".mp4")
+    if genotype is None and closed_loop is not None:
+        raise ValueError(f"a loop that is closed ({closed_loop}) needs an agent; give its genotype")
+    path = None if output is None else film_path(output)
     chosen, fine = get_robot(robot), quality_named(quality)
-    if path is not None or closed_loop == "camera":
-        choose_back_end()
-    from mujoco_port.acting.lab import Lab
+    with drawing() if path is not None or closed_loop == "camera" else nullcontext():
+        from mujoco_port.acting.lab import Lab
 
-    physical, verdict = _carry_out(Lab(chosen), record, genotype, closed_loop)
-    if path is not None:
-        from mujoco_port.film.take import physical_take
-        from mujoco_port.film.video import write_take
+        physical, verdict = _carry_out(Lab(chosen), record, genotype, closed_loop)
+        if path is not None:
+            from mujoco_port.film.take import physical_take
+            from mujoco_port.film.video import write_take
 
-        write_take(physical_take(record, physical, verdict, genotype), chosen, path, fine)
+            write_take(physical_take(record, physical, verdict, genotype), chosen, path, fine)
     return verdict
 
 
@@ -97,32 +99,35 @@ def port_physical_gallery(
         ValueError: If there are not nine records. All other errors as `port_physical_trial`.
     """
     check_gallery(records)
-    path, chosen, fine = writable(Path(output), ".mp4"), get_robot(robot), quality_named(quality)
-    choose_back_end()
-    from rich.progress import track
+    path, chosen, fine = film_path(output), get_robot(robot), quality_named(quality)
+    with drawing():
+        from rich.progress import track
 
-    from mujoco_port.acting.lab import Lab
-    from mujoco_port.film.gallery import write_gallery
-    from mujoco_port.film.take import physical_take
+        from mujoco_port.acting.lab import Lab
+        from mujoco_port.film.gallery import write_gallery
+        from mujoco_port.film.take import physical_take
 
-    lab, takes, verdicts = Lab(chosen), [], []
-    for record in track(records, "trials on the robot"):
-        physical, verdict = _carry_out(lab, record, genotype, closed_loop)
-        takes.append(physical_take(record, physical, verdict, genotype))
-        verdicts.append(verdict)
-    title += f", {sum(verdict.success for verdict in verdicts)} by the robot"
-    return (path, write_gallery(takes, chosen, title, path, fine)), verdicts
+        lab, takes, verdicts = Lab(chosen), [], []
+        for record in track(records, "trials on the robot"):
+            physical, verdict = _carry_out(lab, record, genotype, closed_loop)
+            takes.append(physical_take(record, physical, verdict, genotype))
+            verdicts.append(verdict)
+        title += f", {sum(verdict.success for verdict in verdicts)} by the robot"
+        return (path, write_gallery(takes, chosen, title, path, fine)), verdicts
 
 
 def _carry_out(
-    lab: Lab, record: TrialRecord, genotype: NDArray[np.float64], closed_loop: ClosedLoopName | None
+    lab: Lab, record: TrialRecord, genotype: NDArray[np.float64] | None, closed_loop: ClosedLoopName | None
 ) -> tuple[PhysicalRecord, Verdict]:
     """One trial on the robot, with the agent's inputs from where they are wanted."""
+    if genotype is None:
+        return lab.follow(record)
     trial = start_of(record)
     if closed_loop is None:
         return lab.open_loop(genotype, trial, record.readings)
     if closed_loop == "geometric":
         return lab.closed_loop(genotype, trial, record.readings)
+    refuse_other_renderer()
     from mujoco_port.acting.camera import CameraEyes
 
     with CameraEyes(lab.body, record.readings) as eyes:

@@ -1,7 +1,6 @@
-"""Putting a trial on the robot: the public face of this package.
+"""Putting a trial on the robot: the hand follows S2's end, the objects follow the discs.
 
-from mujoco_port.film.port import port_trial
-port_trial(record, Path("touch-red.mp4"))
+mujoco_port.port_trial(record, "touch-red.mp4")
 """
 
 from __future__ import annotations
@@ -14,8 +13,9 @@ from typing import Final
 from numpy.typing import ArrayLike
 
 from arm2d import TrialRecord
+from arm2d.films import find_encoder, write_png
 from models.robots import get_robot
-from mujoco_port.film.gl import choose_back_end
+from mujoco_port.film.gl import choose_back_end, drawing
 from mujoco_port.film.quality import QualityName, quality_named
 
 N_GALLERY: Final = 9
@@ -50,13 +50,13 @@ def port_trial(
         OutOfReachError: If the robot cannot follow.
         OSError: If the file cannot be written.
     """
-    path, chosen, fine = writable(Path(output), ".mp4"), get_robot(robot), quality_named(quality)
-    choose_back_end()
-    from mujoco_port.film.kinematic import FRAMES_PER_STEP
-    from mujoco_port.film.take import kinematic_take
-    from mujoco_port.film.video import write_take
+    path, chosen, fine = film_path(output), get_robot(robot), quality_named(quality)
+    with drawing():
+        from mujoco_port.film.kinematic import FRAMES_PER_STEP
+        from mujoco_port.film.take import kinematic_take
+        from mujoco_port.film.video import write_take
 
-    write_take(kinematic_take(record, chosen, FRAMES_PER_STEP, genotype), chosen, path, fine)
+        write_take(kinematic_take(record, chosen, FRAMES_PER_STEP, genotype), chosen, path, fine)
     return path
 
 
@@ -84,14 +84,14 @@ def port_gallery(
         ValueError: If there are not nine records. All other errors as `port_trial`.
     """
     check_gallery(records)
-    path, chosen, fine = writable(Path(output), ".mp4"), get_robot(robot), quality_named(quality)
-    choose_back_end()
-    from mujoco_port.film.gallery import write_gallery
-    from mujoco_port.film.kinematic import FRAMES_PER_STEP
-    from mujoco_port.film.take import kinematic_take
+    path, chosen, fine = film_path(output), get_robot(robot), quality_named(quality)
+    with drawing():
+        from mujoco_port.film.gallery import write_gallery
+        from mujoco_port.film.kinematic import FRAMES_PER_STEP
+        from mujoco_port.film.take import kinematic_take
 
-    takes = [kinematic_take(record, chosen, FRAMES_PER_STEP) for record in records]
-    return path, write_gallery(takes, chosen, title, path, fine)
+        takes = [kinematic_take(record, chosen, FRAMES_PER_STEP) for record in records]
+        return path, write_gallery(takes, chosen, title, path, fine)
 
 
 def check_gallery(records: Sequence[TrialRecord]) -> None:
@@ -111,19 +111,35 @@ def port_picture(
 ) -> Path:
     """Write one moment of a trial on a robot as a PNG; arguments and errors as `port_trial`."""
     path, chosen, fine = writable(Path(output), ".png"), get_robot(robot), quality_named(quality)
-    choose_back_end()
-    import imageio.v3 as imageio
+    with drawing():
+        from mujoco_port.film.video import frame_at
 
-    from mujoco_port.film.video import frame_at
+        return write_png(frame_at(record, chosen, step, fine, genotype), path)
 
-    imageio.imwrite(path, frame_at(record, chosen, step, fine, genotype))
+
+def film_path(output: Path | str) -> Path:
+    """The path, if a film can be encoded and written there: told before a minute of drawing."""
+    path = writable(Path(output), ".mp4")
+    find_encoder()
     return path
+
+
+def check_films() -> None:
+    """Refuse, before a folder is made, if no film can be drawn or encoded here.
+
+    Raises:
+        OSError: With the next move.
+    """
+    find_encoder()
+    choose_back_end()
 
 
 def writable(path: Path, suffix: str) -> Path:
     """The path, if a file of this kind can be written there: told before a minute of drawing."""
     if path.suffix.lower() != suffix:
         raise ValueError(f"{path} does not end in {suffix}; choose such a name")
+    if path.is_dir():
+        raise OSError(f"{path} is a folder; choose another name")
     if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
         raise OSError(f"{path} cannot be written: its folder is missing or read-only; choose another")
     return path

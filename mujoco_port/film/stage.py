@@ -1,7 +1,5 @@
 """The robot at its table in MuJoCo, posed moment by moment and drawn off-screen.
 
-Import only after `mujoco_port.film.gl.choose_back_end`.
-
 A software renderer takes its time by the pixel, and three times over where there are shadows. Floor, wall and
 the table's legs never change and fill half of a picture: they are drawn once and laid under the rest.
 """
@@ -20,6 +18,7 @@ from models.build import HAND_SITE, ROBOT_PREFIX
 from models.filmed import film_spec
 from models.robots import Robot
 from mujoco_port.film.gaze import Bearing, bearing
+from mujoco_port.film.gl import new_context
 from mujoco_port.film.light import Ground, ground, shine_state
 from mujoco_port.film.overlay import SPOKES, darken_corners, dimmed, distances, halved, lay_over
 from mujoco_port.film.quality import QUALITIES, Quality
@@ -76,7 +75,7 @@ class Stage:
         self._heights = [self.model.body(name).pos[2] for name in OBJECTS]
         self._materials = [self.model.material(name).id for name in OBJECTS]
         self._touched = np.zeros(len(OBJECTS), bool)
-        self._context = mujoco.GLContext(times * width_px, times * height_px)
+        self._context = new_context(times * width_px, times * height_px)
         self._context.make_current()
         self._drawer = mujoco.MjrContext(self.model, mujoco.mjtFontScale.mjFONTSCALE_100)
         self._drawer.readDepthMap = mujoco.mjtDepthMap.mjDEPTH_ZEROFAR.value

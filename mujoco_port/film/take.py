@@ -13,7 +13,8 @@ from arm2d import constants as c
 from arm2d.controller import decode
 from arm2d.drawing import state_at
 from arm2d.instructions import ACTION_CODES, OBJECT_CODES
-from arm2d.progress import progress_of
+from arm2d.records import brief
+from arm2d.worlds.progress import progress_of
 from models.robots import Robot
 from mujoco_port.film.kinematic import FRAMES_PER_STEP, roll_out
 
@@ -39,6 +40,8 @@ class Mind:
     motors: NDArray[np.float64]
     share: NDArray[np.float64]
     score: NDArray[np.float64] | None
+
+    __repr__ = brief
 
     @property
     def steps(self) -> int:
@@ -116,6 +119,8 @@ class Take:
     planar: NDArray[np.float64]
     mind: Mind
     verdicts: tuple[tuple[str, bool], ...]
+
+    __repr__ = brief
 
     @property
     def moment_s(self) -> float:

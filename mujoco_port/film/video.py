@@ -12,7 +12,7 @@ from rich.progress import track
 
 from arm2d import TrialRecord
 from arm2d.constants import DT
-from arm2d.video import write_mp4
+from arm2d.films import write_mp4
 from models.robots import Robot
 from mujoco_port.film.closeup import INSET_PX, close_ups, laid_in
 from mujoco_port.film.kinematic import FRAMES_PER_STEP

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from rich.progress import track
 
 from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, BETA_MIN
+from arm2d.records import brief
 from models.robots import Robot
 from mujoco_port.reach.clearance import Clearance
 from mujoco_port.reach.kinematics import ArmKinematics, OutOfReachError
@@ -55,6 +56,8 @@ class Certificate:
     roll_error: NDArray[np.float64]
     heading_error: NDArray[np.float64]
     scale: float
+
+    __repr__ = brief
 
     @property
     def reached(self) -> NDArray[np.bool_]:

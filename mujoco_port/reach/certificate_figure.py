@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from arm2d.drawing import INK
+from arm2d.records import brief
 from models.robots import Robot
 from mujoco_port.reach.certificate import Certificate
 
@@ -34,6 +35,8 @@ class Layer:
     unit: str
     values: NDArray[np.float64]
     least_is_worst: bool
+
+    __repr__ = brief
 
 
 def draw_certificate(certificate: Certificate, robot: Robot) -> Figure:

@@ -15,11 +15,13 @@ than `MAX_TURN`, where that lets the hand arrive.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy as np
 import pinocchio as pin
 
-from models.robots import Robot
+from arm2d.records import brief
+from models.robots import Robot, get_robot
 from mujoco_port.reach.hand import hand_model
 from mujoco_port.reach.quadratic import bounded, relaxed
 
@@ -55,9 +57,14 @@ class HandPose:
     position: np.ndarray
     rotation: np.ndarray
 
+    __repr__ = brief
+
 
 class ArmKinematics:
     """Forward and inverse kinematics of the joints that act; angles in the order of the robot's `joints`.
+
+    Args:
+        robot: Its record, or its name.
 
     Attributes:
         robot: The robot's record.
@@ -66,7 +73,8 @@ class ArmKinematics:
         upper: [J] in [rad], upper joint limits.
     """
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot | str = "icub") -> None:
+        robot = get_robot(robot) if isinstance(robot, str) else robot
         self.robot = robot
         self._model, self._hand = hand_model(robot)
         self._data = self._model.createData()
@@ -106,8 +114,10 @@ class ArmKinematics:
             heading: [rad], wanted direction of the fingers in the plane.
 
         Raises:
+            ValueError: If target or heading is not a number.
             OutOfReachError: If no posture within the limits reaches the target.
         """
+        _refuse_no_number(target, heading, self.rest)
         angles = np.clip(self.rest, self.lower, self.upper)
         for _ in range(MAX_SETTLING_STEPS):
             before = angles
@@ -126,8 +136,10 @@ class ArmKinematics:
             heading: [rad], wanted direction of the fingers in the plane.
 
         Raises:
+            ValueError: If the posture, target or heading is not a number.
             OutOfReachError: If no posture within the limits reaches the target.
         """
+        _refuse_no_number(target, heading, angles)
         lower = np.maximum(self.lower, angles - MAX_TURN)
         upper = np.minimum(self.upper, angles + MAX_TURN)
         arrived = self._home_in(self._relax(angles, target, heading, lower, upper), target, lower, upper)
@@ -220,3 +232,19 @@ class ArmKinematics:
     def _jacobian(self, angles: np.ndarray) -> np.ndarray:
         """Give the hand's Jacobian [6, J] in world axes; the hand's placement is updated on the way."""
         return pin.computeFrameJacobian(self._model, self._data, angles, self._hand, WORLD_AXES)
+
+
+def _refuse_no_number(target: np.ndarray, heading: float, angles: np.ndarray) -> None:
+    """Refuse what the solver would carry on with, to a posture that is none.
+
+    One sum tells all at once: it is finite only if everything in it is. This is asked at every step.
+    """
+    if isfinite(target.dot(target) + heading + angles.dot(angles)):
+        return
+    for name, given, unit in (
+        ("target", target, "m"),
+        ("heading", heading, "rad"),
+        ("posture", angles, "rad"),
+    ):
+        if not np.isfinite(given).all():
+            raise ValueError(f"{name} {np.asarray(given).tolist()} {unit} holds what is not a finite number")

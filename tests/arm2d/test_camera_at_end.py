@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from arm2d import ActionWord, LabelChanges, ObjectWord, Readings, record_trial
-from arm2d.view import camera_offsets, in_view
+from arm2d.geometry import camera_offsets, in_view
 from tests.arm2d.controllers import one_trial, steady_controller
 
 MOVE, TOUCH, INDICATE, IGNORE = ActionWord

@@ -87,6 +87,15 @@ def test_kernel_and_reference_agree_on_twenty_thousand_trials_of_all_readings(al
         assert not list(disagreements(genotypes, trials, readings))
 
 
+def test_readings_of_the_search_change_no_trial(evolved):
+    trials = draw_trials(Condition.WITH_INDICATE.instructions, 2, Readings(), np.random.default_rng(2))
+    scores = run_trials(evolved[:10], trials, Readings())
+    for name in OF_EVOLUTION_ONLY:
+        for word in choices()[name][1:]:
+            other = run_trials(evolved[:10], trials, Readings().with_values({name: word}))
+            assert np.array_equal(other.fitness, scores.fitness), (name, word)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("alternative", SEEN_FROM_THE_END, ids=str)
 def test_kernel_and_reference_agree_on_two_thousand_trials_seen_from_the_end_of_s1(alternative, evolved):

@@ -75,6 +75,8 @@ def test_trials_are_read_only():
         ({"objects": [0.5]}, "objects must be a row of whole numbers"),
         ({"alpha": [300.0]}, r"alpha must lie in \[-30, 210\] degrees"),
         ({"alpha": [np.nan]}, r"alpha must lie in \[-30, 210\] degrees"),
+        ({"alpha": [np.inf]}, r"alpha must lie in \[-30, 210\] degrees"),
+        ({"alpha": [-np.inf]}, r"alpha must lie in \[-30, 210\] degrees"),
         ({"discs": np.zeros((1, 3, 2))}, "a disc's centre lies within 100 cm of J1"),
         ({"discs": np.full((1, 3, 2), np.inf)}, "a disc's centre is not a number"),
         ({"discs": np.zeros((2, 3, 2))}, r"1 actions need objects \[1\], alpha \[1\] and discs \[1, 3, 2\]"),

@@ -26,8 +26,8 @@ Reader = Callable[[], int]
 # A number of trials that is refused after everything has been read.
 NONE = "--trials-per-area=0"
 COMMANDS = (
-    "evolve", "evaluate", "plot", "lineage", "behaviour", "repair", "status", "reproduce", "analyse",
-    "report", "postevaluate", "experiment", "port", "ship",
+    "evolve", "evaluate", "lineage", "behaviour", "verify", "status", "reproduce", "analyse",
+    "report", "postevaluate", "experiment", "port", "doctor",
 )  # fmt: skip
 NAMES = (
     "seed", "condition", "population", "elites", "parents", "generations", "trials-per-area", "preset",

@@ -8,7 +8,7 @@ import numpy as np
 
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
-from evolution.agents.transition_test import run_transition_test
+from evolution.agents.transitions import run_transition_test
 from evolution.experiments.plan import Plan
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import Watcher, evolve

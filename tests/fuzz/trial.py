@@ -49,21 +49,16 @@ def fault_of(read: Reader, place: Place) -> tuple[int, str]:
     try:
         with bounded(), contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
             code = read()
-    except SystemExit as error:  # the option parser's way, with a box instead of a sentence
-        code = error.code if isinstance(error.code, int) else 1
-        boxed = True
+    except SystemExit as end:  # after help
+        code = end.code if isinstance(end.code, int) else 1
     except HangError:
         return -1, f"it takes longer than {LONGEST} s"
     except BaseException:
         return -1, traceback.format_exc()
-    else:
-        boxed = False
-    return code, _fault(code, boxed, output.getvalue(), errors.getvalue()) or _left_behind(
-        code, before, place
-    )
+    return code, _fault(code, output.getvalue(), errors.getvalue()) or _left_behind(code, before, place)
 
 
-def _fault(code: int, boxed: bool, output: str, errors: str) -> str:
+def _fault(code: int, output: str, errors: str) -> str:
     """What is wrong with exit code and words."""
     if code not in (0, BAD_INPUT):
         return f"exit code {code}: {errors}"
@@ -71,7 +66,7 @@ def _fault(code: int, boxed: bool, output: str, errors: str) -> str:
         return f"a traceback: {errors}"
     if "memory does not suffice" in errors:
         return "it asks for more memory than it may"
-    if code == BAD_INPUT and not boxed and not (errors.startswith("wordarm: ") and errors.count("\n") == 1):
+    if code == BAD_INPUT and not (errors.startswith("wordarm: ") and errors.count("\n") == 1):
         return f"not one sentence: {errors!r}"
     if code == BAD_INPUT and "\x1b" in errors:
         return "it passes on what steers a terminal"

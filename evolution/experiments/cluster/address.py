@@ -15,7 +15,8 @@ def connected(address: str, folder: Path) -> Connection:
     """A connection to it, not yet opened.
 
     Args:
-        address: Such as tcp://10.0.0.1:8786; tls:// takes its keys from Dask's configuration.
+        address: Such as tls://10.0.0.1:8786, with keys from Dask's configuration; tcp:// lets in everybody
+            who reaches it.
         folder: Of the experiment, shared by all machines.
 
     Raises:
@@ -27,7 +28,7 @@ def connected(address: str, folder: Path) -> Connection:
         scheme, location = "", ""
     if scheme not in backends or ":" not in location:
         raise ValueError(
-            f"{address!r} is not the address of a scheduler; give one such as tcp://10.0.0.1:8786"
+            f"{address!r} is not the address of a scheduler; give one such as tls://10.0.0.1:8786"
         )
     return Connection(
         lambda seconds: Client(address, timeout=seconds, set_as_default=False),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import platform
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,8 +9,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Final
 
-import arm2d
-import evolution
+from arm2d.cache import sources_digest
 
 PACKAGES: Final = ("numpy", "numba", "dask", "distributed")
 SOURCES: Final = "wordarm's sources"
@@ -39,7 +37,10 @@ class Order:
 
 def fingerprint() -> dict[str, str]:
     """Sources and versions that must be the same everywhere."""
-    found = {SOURCES: _sources_digest(), "Python": ".".join(platform.python_version_tuple()[:2])}
+    found = {
+        SOURCES: sources_digest("arm2d", "evolution"),
+        "Python": ".".join(platform.python_version_tuple()[:2]),
+    }
     for name in PACKAGES:
         try:
             found[name] = version(name)
@@ -60,14 +61,3 @@ def disagreement(order: Order) -> str:
             "choose an --output on a file system that all machines share, mounted at the same place"
         )
     return ""
-
-
-def _sources_digest() -> str:
-    """Changes with any source file that takes part in a run."""
-    digest = hashlib.sha256()
-    for package in (arm2d, evolution):
-        root = Path(str(package.__file__)).parent
-        for path in sorted(root.rglob("*.py")):
-            digest.update(str(path.relative_to(root)).encode())
-            digest.update(path.read_bytes())
-    return digest.hexdigest()[:12]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import time
 import uuid
 import warnings
@@ -15,6 +16,7 @@ from typing import Any, Final
 from distributed import Client, Future
 from distributed.versions import VersionMismatchWarning
 
+from arm2d.files import handle_of_new
 from evolution.experiments.cluster.agreement import Order, disagreement, fingerprint
 from evolution.experiments.cluster.tasks import perform, stop_jobs
 from evolution.experiments.workers import Job
@@ -62,7 +64,7 @@ class Connection:
         try:
             self._open()
             make_folder(self.order.folder)
-            self.order.mark.touch()
+            os.close(handle_of_new(self.order.mark))
             self._examine()
         except BaseException:
             self._leave()

@@ -11,17 +11,18 @@ import signal
 import sys
 import threading
 import time
-from typing import Final
+from collections.abc import Mapping
+from typing import Any, Final
 
-from evolution.cli import main as command_line
+from evolution.child import perform
 
 PATIENCE: Final = 30.0  # [s] for stopping in good order
 
 
-def main() -> None:
-    """Be the command line, on a leash."""
+def perform_on_a_leash(function: str, arguments: Mapping[str, Any]) -> int:
+    """Call a function by its reference; its exit code."""
     threading.Thread(target=_end_with_the_worker, daemon=True).start()
-    sys.exit(command_line(sys.argv[1:]))
+    return perform(function, arguments)
 
 
 def _end_with_the_worker() -> None:
@@ -31,7 +32,3 @@ def _end_with_the_worker() -> None:
     os.kill(os.getpid(), signal.SIGTERM)
     time.sleep(PATIENCE)
     os._exit(128 + signal.SIGTERM)
-
-
-if __name__ == "__main__":
-    main()

@@ -13,14 +13,14 @@ from distributed import Future, KilledWorker
 
 from evolution.experiments.cluster.connection import Connection
 from evolution.experiments.cluster.tasks import STOPPED, Outcome
-from evolution.experiments.jobs import Failure, Watcher, run_jobs
+from evolution.experiments.jobs import Failure, Overseer, run_jobs
 from evolution.experiments.workers import Ended, Job, Worker
 
 FETCH_TIME: Final = 5.0  # [s]
 
 
 def run_jobs_on(
-    connection: Connection, chains: Sequence[Sequence[Job]], watcher: Watcher | None = None
+    connection: Connection, chains: Sequence[Sequence[Job]], overseer: Overseer | None = None
 ) -> tuple[Failure, ...]:
     """Run chains of jobs as `evolution.experiments.jobs.run_jobs` does, on whatever workers the cluster has.
 
@@ -30,7 +30,7 @@ def run_jobs_on(
     Args:
         connection: To the cluster, open.
         chains: The jobs; all paths in them absolute.
-        watcher: Is told of what happens, and may stop it.
+        overseer: Is told of what happens, and may stop it.
 
     Returns:
         The jobs that were given up.
@@ -40,7 +40,7 @@ def run_jobs_on(
         ValueError: If worker after worker cannot take part.
     """
     # All at once: Dask then knows how much there is to do, and can ask for more workers.
-    return run_jobs(chains, sys.maxsize, watcher, RemoteStart(connection))
+    return run_jobs(chains, sys.maxsize, overseer, RemoteStart(connection))
 
 
 class RemoteStart:

@@ -3,151 +3,64 @@
 from __future__ import annotations
 
 import re
+import shlex
 import shutil
-import sys
-import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import Any, Final
 
+import dask.config
 import psutil
-from dask.utils import parse_bytes
 from dask_jobqueue.slurm import SLURMCluster, SLURMJob
 from distributed import Client
 from distributed.security import Security
 
+from evolution.child import python
 from evolution.experiments.cluster.connection import Connection
+from evolution.experiments.cluster.keys import folder_for_keys, own_keys
+from evolution.experiments.cluster.options import LOOPBACK, SlurmOptions
 from evolution.runs.storage import make_folder
 
-# What a run holds at most, and a worker that watches over runs [MB], with room to spare; see docs/cluster.md.
-MEMORY_OF_A_RUN: Final = 300
-MEMORY_OF_A_WORKER: Final = 500
-LOOPBACK: Final = "lo"
 DEATH_TIMEOUT: Final = 300  # [s] a worker looks for a scheduler
-LARGEST_FILE: Final = 1_000_000  # [bytes]
-WALLTIME: Final = re.compile(r"(\d+-)?\d+(:\d+){0,2}")
-DIRECTIVE: Final = re.compile(r"-|[a-z][a-z-]+(=|$)")
-NAME: Final = re.compile(r"[\w.,@%+-]+")
-MOST_CORES: Final = 10_000
-MOST_JOBS: Final = 10_000
+# Every local user could ask these processes over HTTP what they do, TLS or not: they answer nothing.
+NO_PAGES: Final = {"distributed.scheduler.http.routes": []}
+NO_PAGES_OF_WORKERS: Final = "export DASK_DISTRIBUTED__WORKER__HTTP__ROUTES='[]'"
+# What sbatch would take for something else in a name of a file, even in quotes.
+NOT_IN_A_NAME: Final = re.compile(r"""["'\\]""")
 
 
-@dataclass(frozen=True)
-class SlurmOptions:
-    """What every SLURM job asks for, and how many there are."""
+class QuotedJob(SLURMJob):
+    """A job whose script names the files of its keys as words that no shell takes apart."""
 
-    jobs: int = 1
-    """SLURM jobs at most at a time; each is one worker."""
-
-    cores: int = 16
-    """Processors of each SLURM job, and runs at a time in it."""
-
-    memory: str | None = None
-    """Memory of each SLURM job, such as 8GB. By default 300 MB for each core and 500 MB."""
-
-    walltime: str = "04:00:00"
-    """Longest time of each SLURM job; what it leaves unfinished, the next one goes on with."""
-
-    queue: str | None = None
-    """Partition."""
-
-    account: str | None = None
-    """Whom the time is charged to."""
-
-    interface: str = LOOPBACK
-    """Network interface by which the nodes reach this machine, such as ib0. lo is for this machine alone."""
-
-    directives: tuple[str, ...] = ()
-    """More directives of sbatch, such as constraint=rome."""
-
-    prologue: tuple[str, ...] = ()
-    """Lines of the job script before the worker, such as 'module load python'."""
-
-    tls: bool = True
-    """Encrypt, and let nobody in but this command and its workers, by keys made for this one time."""
-
-    def __post_init__(self) -> None:
-        for name, most in (("cores", MOST_CORES), ("jobs", MOST_JOBS)):
-            value = getattr(self, name)
-            if not isinstance(value, int) or isinstance(value, bool) or not 1 <= value <= most:
-                raise ValueError(f"slurm {name} = {value!r} must be a whole number from 1 to {most}")
-        for name in ("queue", "account", "interface", "walltime", "memory"):
-            if (value := getattr(self, name)) is not None and not isinstance(value, str):
-                raise ValueError(f"slurm {name} = {value!r} must be text")
-        if not isinstance(self.tls, bool):
-            raise ValueError(f"slurm tls = {self.tls!r} must be true or false")
-        if not WALLTIME.fullmatch(self.walltime):
-            raise ValueError(f"slurm walltime = {self.walltime!r} must be like 04:00:00, or 2-00:00:00")
-        for name in ("queue", "account"):
-            if (value := getattr(self, name)) is not None and not NAME.fullmatch(value):
-                raise ValueError(f"slurm {name} = {value!r} must be one word, as sbatch takes it")
-        for name in ("directives", "prologue"):
-            self._check_lines(name)
-        self._check_memory()
-
-    def _check_lines(self, name: str) -> None:
-        lines = getattr(self, name)
-        if not isinstance(lines, tuple) or not all(isinstance(x, str) and x.isprintable() for x in lines):
-            raise ValueError(f"slurm {name} = {lines!r} must be a list of single lines")
-        for each in lines if name == "directives" else ():
-            if not DIRECTIVE.match(each):
-                raise ValueError(f"slurm directive {each!r} must be an option of sbatch, such as nice=100")
-
-    def _check_memory(self) -> None:
-        if self.memory is not None:
-            try:
-                parse_bytes(self.memory)
-            except ValueError:
-                raise ValueError(f"slurm memory = {self.memory!r} must be like 8GB or 500MB") from None
-
-    @property
-    def memory_of_a_job(self) -> str:
-        """As asked for, or enough for as many runs as there are cores."""
-        return self.memory or f"{MEMORY_OF_A_WORKER + self.cores * MEMORY_OF_A_RUN}MB"
-
-    def with_values(self, values: Mapping[str, Any]) -> SlurmOptions:
-        """The same with some options otherwise.
-
-        Raises:
-            ValueError: If a name is unknown or a value impossible.
-        """
-        known = [each.name for each in fields(self)]
-        for name in values:
-            if name not in known:
-                raise ValueError(f"unknown slurm option {name!r}; there are {', '.join(known)}")
-        return replace(self, **{k: tuple(v) if isinstance(v, list) else v for k, v in values.items()})
+    def __init__(self, *arguments: Any, security: Security | None = None, **options: Any) -> None:
+        super().__init__(*arguments, security=security and _QuotedFiles(security), **options)
 
 
-def read_options(path: Path) -> SlurmOptions:
-    """The options in the table [slurm] of a TOML file.
+class _QuotedFiles:
+    """The keys of a worker, by the names of their files in quotes."""
+
+    def __init__(self, security: Security) -> None:
+        self._security = security
+
+    def get_tls_config_for_role(self, role: str) -> dict[str, str | None]:
+        named = self._security.get_tls_config_for_role(role)
+        return {key: shlex.quote(value) if value else value for key, value in named.items()}
+
+
+def job_script(options: SlurmOptions, folder: Path) -> str:
+    """The script of every SLURM job; the scheduler's address and keys are known only when it runs.
+
+    Args:
+        options: What is asked of SLURM, complete.
+        folder: Of the experiment.
 
     Raises:
-        ValueError: With one sentence, if there is none or it cannot be understood.
+        ValueError: If the folder's name cannot stand in the script.
     """
-    if not path.is_file():
-        raise ValueError(f"{path} is not a file; give a TOML file with a table [slurm]")
-    if path.stat().st_size > LARGEST_FILE:
-        raise ValueError(f"{path} is larger than {LARGEST_FILE:,} bytes; a table [slurm] is short")
-    try:
-        values = tomllib.loads(path.read_bytes().decode())
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path} is not TOML: {error}") from None
-    table = values.get("slurm")
-    if not isinstance(table, dict):
-        raise ValueError(f"{path} has no table [slurm]; its keys may be {', '.join(asdict(SlurmOptions()))}")
-    try:
-        return SlurmOptions().with_values(table)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
-
-
-def job_script(options: SlurmOptions) -> str:
-    """The script of every SLURM job; the scheduler's address and keys are known only when it runs."""
     # The job alone, without a cluster: nothing is listened to, nothing written.
     address = "tls://ADDRESS" if options.tls else "tcp://ADDRESS"
-    return SLURMJob(address, name="NAME", **_job_options(options)).job_script()
+    return QuotedJob(address, name="NAME", **_job_options(options, _logs(folder))).job_script()
 
 
 @contextmanager
@@ -155,28 +68,33 @@ def slurm_cluster(options: SlurmOptions, folder: Path) -> Iterator[Connection]:
     """While open, a scheduler in this process and as many SLURM jobs as there is work for.
 
     Args:
-        options: What is asked of SLURM.
+        options: What is asked of SLURM, complete.
         folder: Of the experiment; the jobs' output and, while open, their keys are kept in its `logs/slurm`.
 
     Raises:
-        ValueError: If SLURM is not here, or the interface does not exist.
+        ValueError: If SLURM is not here, the interface does not exist, or the folder's name cannot stand in
+            the script.
         OSError: If nothing can be written, or listened to.
     """
     if shutil.which("sbatch") is None:
         raise ValueError("there is no sbatch on this machine; --slurm works where jobs are submitted")
     if options.interface not in (known := psutil.net_if_addrs()):
         raise ValueError(f"slurm interface {options.interface!r} is not here; there are {', '.join(known)}")
-    logs = folder.resolve() / "logs" / "slurm"
+    logs = _logs(folder)
+    job_options = _job_options(options, logs)
     make_folder(logs)
     cluster: Any
-    with SLURMCluster(
-        **_job_options(options),
-        log_directory=str(logs),
-        shared_temp_directory=str(logs),
-        security=_own_keys() if options.tls else None,
-        # The scheduler's pages about itself: for this machine only, whatever the interface.
-        scheduler_options={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
-    ) as cluster:
+    with (
+        folder_for_keys(logs) as keys,
+        dask.config.set(NO_PAGES),
+        SLURMCluster(
+            **job_options,
+            job_cls=QuotedJob,  # pyright: ignore - a class is meant
+            security=own_keys(keys) if options.tls else None,
+            # The scheduler's pages about itself: for this machine only, whatever the interface.
+            scheduler_options={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
+        ) as cluster,
+    ):
         cluster.adapt(minimum_jobs=0, maximum_jobs=options.jobs, interval="10s", wait_count=6)
         with Connection(
             lambda seconds: Client(cluster, timeout=seconds, set_as_default=False),
@@ -194,30 +112,43 @@ def _loopback_note(options: SlurmOptions, logs: Path) -> str:
     return note
 
 
-def _own_keys() -> Security:
-    try:
-        return Security.temporary()
-    except ImportError:
-        raise ValueError(
-            "keys for TLS need the package cryptography; install it with: pip install 'wordarm[cluster]'"
-        ) from None
+def _logs(folder: Path) -> Path:
+    """Where the jobs' output goes, and while they run their keys."""
+    return folder.resolve() / "logs" / "slurm"
 
 
-def _job_options(options: SlurmOptions) -> dict[str, Any]:
+def _job_options(options: SlurmOptions, logs: Path) -> dict[str, Any]:
     """What dask-jobqueue calls the options."""
+    directives = [x if x.startswith("-") else f"--{x}" for x in options.directives or ()]
     return {
         "cores": options.cores,
         # One worker process, with a thread for each job it watches over.
         "processes": 1,
-        "memory": options.memory_of_a_job,
+        "memory": options.memory,
         "walltime": options.walltime,
         "queue": options.queue,
         "account": options.account,
         "interface": options.interface,
-        "job_extra_directives": [x if x.startswith("-") else f"--{x}" for x in options.directives],
-        "job_script_prologue": list(options.prologue),
+        "job_extra_directives": [
+            f"--error={_word_for_sbatch(logs / 'wordarm-%J.err')}",
+            f"--output={_word_for_sbatch(logs / 'wordarm-%J.out')}",
+            *directives,
+        ],
+        "job_script_prologue": [NO_PAGES_OF_WORKERS, *(options.prologue or ())],
         "job_name": "wordarm",
-        "python": sys.executable,
+        # Followed by -m and the module of a Dask worker.
+        "python": shlex.join(python()),
         "death_timeout": DEATH_TIMEOUT,
         "worker_extra_args": ["--no-dashboard", "--dashboard-address", "127.0.0.1:0"],
     }
+
+
+def _word_for_sbatch(file: Path) -> str:
+    """The name of a file as one word of a directive; in its folders a percent sign means itself."""
+    name = str(file)
+    if not name.isprintable() or NOT_IN_A_NAME.search(name):
+        raise ValueError(
+            f"{str(file.parent)!r} cannot be named in a job script; choose an --output without quotes, "
+            "backslashes and characters that cannot be printed"
+        )
+    return shlex.quote(f"{str(file.parent).replace('%', '%%')}/{file.name}")

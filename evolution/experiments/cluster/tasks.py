@@ -6,17 +6,20 @@ killed or runs out of memory, signals reach the job, and jobs of one worker do n
 
 from __future__ import annotations
 
+import os
 import subprocess
-import sys
 import time
 from dataclasses import dataclass
 from typing import Final
 
 from distributed import get_worker
 
+from arm2d.files import handle_to_append
+from evolution.child import calling, reference
 from evolution.experiments.cluster.agreement import Order, disagreement
-from evolution.experiments.plan import in_use
+from evolution.experiments.cluster.leash import perform_on_a_leash
 from evolution.experiments.workers import Ended, Job, Worker
+from evolution.runs.lock import in_use
 
 POLL_INTERVAL: Final = 0.1  # [s]
 # Between two looks at a run that a process left over elsewhere still holds [s].
@@ -46,9 +49,10 @@ class LeashedWorker(Worker):
     """A job's process, which ends when this one does."""
 
     def _begin(self) -> None:
-        with self.job.log.open("ab") as log:
+        job = {"function": self.job.function, "arguments": self.job.arguments}
+        with os.fdopen(handle_to_append(self.job.log), "ab") as log:
             self._process = subprocess.Popen(  # noqa: S603 - our own program
-                [sys.executable, "-m", "evolution.experiments.cluster.leash", *self.job.arguments],
+                calling(reference(perform_on_a_leash), job),
                 stdin=subprocess.PIPE,
                 stdout=log,
                 stderr=subprocess.STDOUT,

@@ -12,8 +12,8 @@ from arm2d import (
 )
 from arm2d.arithmetic import sigmoid
 from evolution.agents.behaviour import draw_behaviour_trials, record_behaviour
-from evolution.agents.events import events_of, shares_by_event
 from evolution.agents.lineage_scores import offsets
+from evolution.agents.variance import events_of, shares_by_event
 from evolution.cli import main
 from evolution.figures.behaviour import trajectories_figure
 from evolution.figures.neurons import activity_figure, variance_figure

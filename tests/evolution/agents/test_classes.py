@@ -10,7 +10,8 @@ from arm2d import Condition
 from evolution.agents import classes as class_observation
 from evolution.agents.classes import CLASSES, Observation, Sampling, choose, observation_path, observe
 from evolution.agents.lesions import lesion_scores
-from evolution.agents.postevaluation import late_history, post_evaluate
+from evolution.agents.parts import late_history
+from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.subtasks import AgentClass
 from evolution.cli import main
 from evolution.report.classes import behaviours_of, class_figures, write_classes
@@ -88,16 +89,16 @@ def test_damaged_observation_is_named_with_the_command_that_repeats_it(classed):
     observe(classed, TINY)
     path = observation_path(classed, TINY)
     path.write_bytes(path.read_bytes()[:-70])
-    with pytest.raises(DamagedFileError, match="remove it and repeat: wordarm classes"):
+    with pytest.raises(DamagedFileError, match=r"remove it and repeat: wordarm behaviour .* --classes"):
         observe(classed, TINY)
 
 
 def test_the_run_is_the_unit_however_many_agents_it_has(finished_run):
     run = RunFolder.open(finished_run)
     many, one = observation(AgentClass.FULL, [1.0] * 9), observation(AgentClass.FULL, [0.0])
-    each = class_behaviours(INDICATE, [(run, many), (run, one)])[AgentClass.FULL]
-    assert each.agents.tolist() == [9, 1]
-    values = dict(measures(each))
+    behaviour = class_behaviours(INDICATE, [(run, many), (run, one)])[AgentClass.FULL]
+    assert behaviour.agents.tolist() == [9, 1]
+    values = {name: measure(behaviour) for name, measure in measures().items()}
     assert values["success, experienced, intact"].mean() == 0.5
     assert values["share of variance, action, the second before first sight"].tolist() == [0.25, 0.25]
 
@@ -130,9 +131,9 @@ def test_no_class_no_figure(tested):
 
 
 def test_command_names_what_cannot_be_observed(finished_run, capsys):
-    assert main(["classes", str(finished_run)]) == 2
+    assert main(["behaviour", str(finished_run), "--classes"]) == 2
     captured = capsys.readouterr()
     assert "with-indicate, seed 11: left out, not post-evaluated; go on with: wordarm post" in captured.out
     assert captured.err.count("\n") == 1
-    assert main(["classes", str(finished_run), "--agents=0"]) == 2
+    assert main(["behaviour", str(finished_run), "--classes", "--agents=0"]) == 2
     assert "asked for 0 agents; there must be at least 1" in capsys.readouterr().err

@@ -76,3 +76,24 @@ def test_lesions_figure_shows_the_mean_over_agents(evolved):
     shown = [text.get_text() for text in figure.axes[0].texts][:9]
     expected = np.concatenate([scores.intact.mean(axis=0)[:1], scores.lesioned.mean(axis=0)[:, 0]])
     assert shown == [f"{100 * each:.0f}" for each in expected]
+
+
+def test_an_exchanged_word_counts_as_the_mean_over_both_others(evolved):
+    """Both substitutes alone, by instruction; agents for which they differ."""
+    agents = evolved[[7, 15]]
+    trials = draw_behaviour_trials(INDICATE, READINGS, 2, 0)
+    scores = lesion_scores(agents, INDICATE, READINGS, per_area=2)
+    differ = 0
+    for place, lesion in enumerate(LESIONS):
+        if lesion.manner != "exchanged":
+            continue
+        alone = np.full((2, *scores.intact.shape), np.nan)  # [substitutes, P, 9]
+        for number in range(9):
+            own = trials[np.arange(4 * number, 4 * number + 4)]
+            both = lesioned_trials(own, ObjectWord(number % 3), lesion, INDICATE)
+            for substitute, (heard, codes) in enumerate(both):
+                success = run_trials(agents, heard, READINGS, word_codes=codes).success
+                alone[substitute, :, number] = success.mean(axis=1)
+        differ += (alone[0] != alone[1]).sum()
+        np.testing.assert_allclose(scores.lesioned[:, place], alone.mean(axis=0), rtol=0, atol=1e-15)
+    assert differ > 10

@@ -87,7 +87,9 @@ def test_a_history_that_was_not_bred_is_refused(run_copy):
     path = folder.part_path(folder.spans[1])
     arrays = read_arrays(path)
     write_arrays(path, {**arrays, "parents": (arrays["parents"] + 1).astype(np.int16) % 10})
-    with pytest.raises(DamagedFileError, match="recompute generations 100 to 199 with: wordarm repair"):
+    with pytest.raises(
+        DamagedFileError, match=r"recompute generations 100 to 199 with: wordarm verify .* --repair"
+    ):
         trace_lineage(folder)
 
 
@@ -109,6 +111,24 @@ def test_a_few_unlucky_ancestors_do_not_undo_a_skill():
     assert Skills.along(shares).for_good.tolist() == [0]
     shares[60:90] = 0.0
     assert Skills.along(shares).for_good.tolist() == [90]
+
+
+def test_a_skill_the_agent_has_lost_did_not_come_for_good():
+    """Lost at the very end of a long line, it is still had by nine tenths of the rest."""
+    shares = np.zeros((6000, 2))
+    shares[5121:5990, 0] = 1.0
+    shares[5121:, 1] = 1.0
+    skills = Skills.along(shares)
+    assert skills.first.tolist() == [5121, 5121]
+    assert skills.for_good.tolist() == [-1, 5121]
+
+
+def test_whatever_came_for_good_the_agent_has():
+    rng = np.random.default_rng(2)
+    skills = Skills.along(rng.binomial(20, 0.78, (300, 400)) / 20)
+    stayed = skills.for_good >= 0
+    assert 10 < stayed.sum() < 390
+    assert (skills.shares[-1, stayed] > 0.75).all()
 
 
 def test_scores_of_the_line_are_those_of_its_agents(folder, lineage, scores):
@@ -149,6 +169,15 @@ def test_innovations_stand_in_the_order_of_their_coming(scores):
     came = [each for each in order if each >= 0]
     assert len(order) == 15
     assert order == sorted(came) + [-1] * (15 - len(came))
+
+
+def test_an_innovation_tells_what_the_agent_at_the_end_of_the_line_can(scores):
+    names = [str(word) for word in scores.condition.instructions]
+    found = {innovation.skill: innovation for innovation in innovations(scores)}
+    assert not np.array_equal(scores.success.shares[0], scores.success.shares[-1])
+    for column, name in enumerate(names):
+        assert found[name].agent == scores.success.shares[-1, column]
+        assert found[name].first == scores.success.first[column]
 
 
 def test_figure_shows_every_skill_and_marks_the_never_met(scores):

@@ -6,24 +6,18 @@ import numpy as np
 import pytest
 
 from arm2d import Condition
-from evolution.agents import solving, transition_test
-from evolution.agents.postevaluation import (
-    evaluate_agents,
-    late_spans,
-    part_path,
-    post_evaluate,
-    read_post_evaluation,
-)
+from evolution.agents import solving
+from evolution.agents.parts import late_spans
+from evolution.agents.postevaluation import POST_EVALUATION, post_evaluate, successes_by_area
 from evolution.agents.solving import solved_trials
-from evolution.agents.transition_test import run_transition_test
+from evolution.agents.transitions import TRANSITION_TEST, run_transition_test
 from evolution.cli import main, parse
 from evolution.experiments.experiment import open_experiment
-from evolution.figures.paper import all_figures
 from evolution.results.analysis import analyse
-from evolution.results.shipping import notable_agents, ship
+from evolution.results.notable import notable_agents, ship
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import evolve
-from evolution.runs.sources import find_source
+from evolution.runs.sources import find_agent
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
@@ -48,30 +42,32 @@ def experiment(tmp_path_factory):
 
 def test_last_third_of_the_generations_is_post_evaluated(experiment):
     run = open_experiment(experiment).all_runs[0]
-    assert read_post_evaluation(run).generations.tolist() == [6, 7, 8]
+    assert POST_EVALUATION.read(run).generations.tolist() == [6, 7, 8]
 
 
 def test_every_agent_is_given_trials_of_its_own(experiment, evolved):
     run = open_experiment(experiment).all_runs[0]
     unsure = evolved[20]  # carries some instructions out in some trials only
-    twins = evaluate_agents(run.config, 8, np.stack([unsure] * 5))
+    twins = successes_by_area(run.config, 8, np.stack([unsure] * 5))
     assert len(np.unique(twins, axis=0)) > 1
 
 
 def test_post_evaluation_recomputed_gives_the_same_numbers(experiment, tmp_path):
     run = open_experiment(experiment).all_runs[0]
     copy = RunFolder.open(shutil.copytree(run.path, tmp_path / "copy"))
-    part_path(copy, late_spans(copy)[0]).unlink()
-    np.testing.assert_array_equal(post_evaluate(copy).successes, read_post_evaluation(run).successes)
+    POST_EVALUATION.path(copy, late_spans(copy)[0]).unlink()
+    np.testing.assert_array_equal(post_evaluate(copy).successes, POST_EVALUATION.read(run).successes)
 
 
 def test_damaged_part_is_named_with_the_command_that_recomputes_it(experiment, tmp_path):
     run = open_experiment(experiment).all_runs[0]
     copy = RunFolder.open(shutil.copytree(run.path, tmp_path / "copy"))
-    path = part_path(copy, late_spans(copy)[0])
+    path = POST_EVALUATION.path(copy, late_spans(copy)[0])
     path.write_bytes(path.read_bytes()[:-100])
-    with pytest.raises(DamagedFileError, match=r"is damaged .* put it right with: wordarm repair"):
-        read_post_evaluation(copy)
+    with pytest.raises(
+        DamagedFileError, match=r"is damaged .* put it right with: wordarm verify .* --repair"
+    ):
+        POST_EVALUATION.read(copy)
 
 
 def test_unfinished_run_is_not_post_evaluated(tmp_path):
@@ -108,13 +104,13 @@ def test_analysis_names_what_is_missing_and_goes_on(experiment, tmp_path):
 def test_a_damaged_part_costs_its_run_only_and_is_named(experiment, tmp_path):
     copy = shutil.copytree(experiment, tmp_path / "copy")
     run = RunFolder.open(copy / "with-ignore" / "seed-0001")
-    path = part_path(run, late_spans(run)[0])
+    path = POST_EVALUATION.path(run, late_spans(run)[0])
     path.write_bytes(path.read_bytes()[:-100])
     results = analyse(open_experiment(copy))
     assert results.conditions[Condition.WITH_IGNORE].seeds.tolist() == [2]
     (sentence,) = results.missing
     assert sentence.startswith("with-ignore, seed 1: left out, ")
-    assert f"with: wordarm repair {run.path}" in sentence
+    assert f"with: wordarm verify {run.path} --repair" in sentence
 
 
 def test_an_unreadable_run_and_a_missing_seed_are_named(experiment, tmp_path):
@@ -128,6 +124,27 @@ def test_an_unreadable_run_and_a_missing_seed_are_named(experiment, tmp_path):
     assert results.conditions[Condition.WITH_INDICATE].seeds.tolist() == [2]
 
 
+def test_a_run_copied_inside_its_experiment_is_counted_once_and_named(experiment, tmp_path):
+    copy = shutil.copytree(experiment, tmp_path / "copy")
+    original = copy / "with-indicate" / "seed-0002"
+    for name in ("seed-0002 (copy)", "backup", "seed-0001.old"):
+        shutil.copytree(original, copy / "with-indicate" / name)
+    results = analyse(open_experiment(copy))
+    assert results.conditions[Condition.WITH_INDICATE].seeds.tolist() == [1, 2]
+    assert results.conditions[Condition.WITH_INDICATE].runs[1].path == original
+    assert sorted(results.missing) == sorted(
+        f"{copy / 'with-indicate' / name} holds the same run as {original} (configuration and seed), "
+        "which is counted once; move the copy elsewhere"
+        for name in ("seed-0002 (copy)", "backup", "seed-0001.old")
+    )
+
+
+def test_runs_that_differ_in_anything_but_their_folder_are_no_copies(experiment):
+    runs = open_experiment(experiment)
+    assert len(runs.all_runs) == 4
+    assert runs.copies == ()
+
+
 def test_an_unfinished_run_is_told_how_to_go_on(tmp_path):
     config = RunConfig(Condition.WITH_IGNORE, 3)
     run = RunFolder.create(tmp_path / "with-ignore" / "seed-0003", config)
@@ -137,24 +154,30 @@ def test_an_unfinished_run_is_told_how_to_go_on(tmp_path):
     assert parse(command.split()[1:]).config == config
 
 
+def test_an_experiment_without_a_tested_run_is_not_analysed_and_nothing_is_written(
+    finished_run, tmp_path, capsys
+):
+    run = shutil.copytree(finished_run, tmp_path / "an experiment" / "with-indicate" / "seed-0011")
+    before = sorted(tmp_path.rglob("*"))
+    assert main(["analyse", str(tmp_path / "an experiment")]) == 2
+    error = capsys.readouterr().err
+    assert "an experiment has no run that can be analysed: with-indicate, seed 11: left out, not " in error
+    assert error.endswith(f"post-evaluated; go on with: wordarm postevaluate '{run}'\n")
+    assert sorted(tmp_path.rglob("*")) == before
+
+
 def test_tests_go_on_past_a_damaged_run_and_end_with_its_name(experiment, tmp_path, capsys):
     copy = shutil.copytree(experiment, tmp_path / "copy")
     damaged = RunFolder.open(copy / "with-indicate" / "seed-0001")
-    path = part_path(damaged, late_spans(damaged)[0])
+    path = POST_EVALUATION.path(damaged, late_spans(damaged)[0])
     path.write_bytes(b"nothing")
     later = RunFolder.open(copy / "with-ignore" / "seed-0002")
-    part_path(later, late_spans(later)[0]).unlink()
+    POST_EVALUATION.path(later, late_spans(later)[0]).unlink()
     assert main(["postevaluate", str(copy)]) == 2
     error = capsys.readouterr().err
     assert error.count("\n") == 1
     assert str(path) in error
-    assert part_path(later, late_spans(later)[0]).exists()
-
-
-def test_every_figure_can_be_drawn(experiment):
-    figures = all_figures(analyse(open_experiment(experiment)))
-    assert set(figures) == {"fitness", "table-ii", "transitions", "generalisers"}
-    assert all(figure.axes for figure in figures.values())
+    assert POST_EVALUATION.path(later, late_spans(later)[0]).exists()
 
 
 def test_folder_without_runs_is_refused(tmp_path):
@@ -168,10 +191,10 @@ def test_shipped_agents_are_found_again_with_their_world_and_scores(experiment, 
     assert {each.stem for each in paths} <= {"best-generaliser", "best-specialist", "with-ignore"}
     agents = notable_agents(results)
     for path in paths:
-        source, agent = find_source(str(path)), agents[path.stem]
+        source, agent = find_agent(str(path)), agents[path.stem]
         assert source.condition is agent.run.config.condition
         assert source.readings == agent.run.config.readings
-        rank = find_source(str(agent.run.path), generation=agent.generation, rank=agent.rank)
+        rank = find_agent(str(agent.run.path), generation=agent.generation, rank=agent.rank)
         np.testing.assert_array_equal(source.genotype, rank.genotype)
 
 
@@ -182,7 +205,7 @@ def test_damaged_tests_are_repaired_with_the_bits_they_had(experiment, tmp_path)
     run_transition_test(copy)
     solved_trials(copy)
     span = late_spans(copy)[0]
-    paths = [part_path(copy, span), transition_test.part_path(copy, span), solving.file_path(copy)]
+    paths = [POST_EVALUATION.path(copy, span), TRANSITION_TEST.path(copy, span), solving.file_path(copy)]
     before = [path.read_bytes() for path in paths]
     for path in paths:
         path.write_bytes(path.read_bytes()[:-100])
@@ -198,8 +221,8 @@ def test_numbers_no_test_can_give_are_damage_even_with_a_fitting_checksum(experi
     run = open_experiment(experiment).all_runs[0]
     copy = RunFolder.open(shutil.copytree(run.path, tmp_path / "copy"))
     span = late_spans(copy)[0]
-    arrays = copy.read_arrays(part_path(copy, span))
+    arrays = copy.read_arrays(POST_EVALUATION.path(copy, span))
     arrays["successes"][0, 0, 0] = 81
-    copy.write_arrays(part_path(copy, span), arrays)
+    copy.write_arrays(POST_EVALUATION.path(copy, span), arrays)
     with pytest.raises(DamagedFileError, match=r"its successes are not all in \[0, 80\]"):
-        read_post_evaluation(copy)
+        POST_EVALUATION.read(copy)

@@ -1,16 +1,26 @@
 """Transition tests (spec section 10)."""
 
+import shutil
+
 import numpy as np
 import pytest
 
-from arm2d import NON_EXPERIENCED, Condition, Readings, record_trial, run_trials
+from arm2d import NON_EXPERIENCED, Condition, Readings, draw_trials, record_trial, run_trials
+from evolution.agents.parts import late_history, late_spans
+from evolution.agents.postevaluation import POST_EVALUATION
+from evolution.agents.subtasks import AgentClass
 from evolution.agents.transitions import (
+    CLASSES,
     action_transitions,
     draw_transition_trials,
     object_transitions,
     passes,
+    run_transition_test,
     transition_successes,
 )
+from evolution.runs.folder import RunFolder
+from evolution.runs.storage import make_folder
+from evolution.search.randomness import Purpose, generator
 
 
 @pytest.mark.parametrize("condition", Condition)
@@ -77,3 +87,52 @@ def test_no_agents_make_an_empty_table():
 
 def test_passing_takes_more_than_sixty_of_eighty_in_every_transition():
     assert passes(np.array([[61, 61], [60, 80], [80, 80]])).tolist() == [True, False, True]
+
+
+@pytest.fixture(scope="module")
+def tested(finished_run, tmp_path_factory):
+    """A run all of whose late agents count as fully compositional, whatever they can do, tested."""
+    run = RunFolder.open(shutil.copytree(finished_run, tmp_path_factory.mktemp("tested") / "run"))
+    make_folder(run.path / POST_EVALUATION.folder)
+    for span in late_spans(run):
+        successes = np.full((len(span), 5, 9), 80, np.int16)
+        arrays = {"generations": np.array(span, np.int32), "successes": successes}
+        run.write_arrays(POST_EVALUATION.path(run, span), arrays)
+    return run, run_transition_test(run)
+
+
+def test_the_two_tests_draw_from_different_streams(tested):
+    """A classed agent does in the test what it does in trials of the stream for transitions."""
+    run, found = tested
+    late, condition, readings = late_history(run), run.config.condition, run.config.readings
+    tests = (action_transitions(condition), object_transitions(condition))
+    assert len(found.generations) == 5 * len(late)
+    by_purpose = {}
+    for purpose in (Purpose.TRANSITIONS, Purpose.POST_EVALUATION):
+        rows = []
+        for generation, genotypes in zip(late.generations[:12], late.best_genotypes[:12], strict=True):
+            rng = generator(run.config.seed, purpose, int(generation))
+            rows.append(np.hstack([transition_successes(genotypes, each, readings, rng) for each in tests]))
+        by_purpose[purpose] = np.concatenate(rows)
+    recorded = np.concatenate([found.action, found.object], axis=1)[:60]
+    assert recorded.any()
+    np.testing.assert_array_equal(recorded, by_purpose[Purpose.TRANSITIONS])
+    assert not np.array_equal(recorded, by_purpose[Purpose.POST_EVALUATION])
+
+
+def test_starts_of_the_two_tests_differ_in_every_generation():
+    condition, readings = Condition.WITH_INDICATE, Readings()
+    for generation in (4000, 4001, 5999):
+        starts = [
+            draw_trials([condition.instructions[1]], 40, readings, generator(1, purpose, generation)).alpha
+            for purpose in (Purpose.TRANSITIONS, Purpose.POST_EVALUATION, Purpose.TRIALS)
+        ]
+        assert len({start.tobytes() for start in starts}) == 3
+
+
+def test_a_classed_agent_is_named_by_generation_rank_and_class(tested):
+    run, found = tested
+    generations = late_history(run).generations
+    np.testing.assert_array_equal(found.generations, np.repeat(generations, 5))
+    np.testing.assert_array_equal(found.ranks, np.tile(np.arange(5), len(generations)))
+    assert {CLASSES[each] for each in found.classes} == {AgentClass.FULL}

@@ -1,5 +1,6 @@
 """The whole way from random genotypes to the report, scaled down; stopped, killed, refused."""
 
+import json
 import re
 import signal
 import subprocess
@@ -11,15 +12,17 @@ from pathlib import Path
 import pytest
 
 from arm2d import Condition, Readings
+from evolution.child import calling, python
 from evolution.cli import main, parse
 from evolution.experiments.live_table import duration, plain_lines
-from evolution.experiments.plan import Plan, evolve_arguments, in_use
+from evolution.experiments.plan import Plan
 from evolution.experiments.stage_times import FILE, stage_times
 from evolution.experiments.standing import Pace, Standing, is_held, standing_of, time_left
-from evolution.runs.lock import locked
+from evolution.runs.lock import in_use, locked
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.trust.torture import Torture, torture
+from tests.evolution.planted import executed, plant
 
 # Far from the paper, so that no stage takes long.
 FLAGS = ["--runs=1", "--population=10", "--elites=2", "--parents=5", "--generations=230"]
@@ -37,11 +40,12 @@ def results_of(folder):
 
 @pytest.fixture(scope="session")
 def reproduced(tmp_path_factory):
-    """A scaled-down reproduction, finished without disturbance, and what it printed."""
-    folder = tmp_path_factory.mktemp("reproduced") / "small"
-    done = subprocess.run(command(folder), capture_output=True, text=True)
+    """A scaled-down reproduction, started among planted files and left undisturbed, and what it printed."""
+    here = plant(tmp_path_factory.mktemp("reproduced"))
+    start = python("-m", "evolution", "reproduce", *FLAGS, "--output=small")
+    done = subprocess.run(start, capture_output=True, text=True, cwd=here)
     assert done.returncode == 0, done.stdout + done.stderr
-    return folder, done.stdout
+    return here / "small", done.stdout
 
 
 @pytest.mark.slow
@@ -49,7 +53,8 @@ def test_a_scaled_down_paper_ends_with_report_tables_and_times(reproduced):
     folder, output = reproduced
     assert (folder / "report.html").stat().st_size > 100_000
     assert (folder / "results" / "table-ii.csv").exists()
-    assert str(folder / "report.html") in output
+    assert "small/report.html" in output
+    assert executed(folder.parent) == []
     for stage in ("evolving", "testing", "analysing", "tracing ancestors", "observing", "reporting"):
         assert re.search(rf"^  {stage}: \d+ s of CPU in \d processes", output, re.MULTILINE), stage
     assert "\x1b" not in output
@@ -80,7 +85,7 @@ def test_stopped_it_ends_its_workers_and_goes_on_with_the_same_command(reproduce
 
 @pytest.mark.slow
 def test_tortured_it_ends_with_the_bits_of_the_undisturbed_one(reproduced, tmp_path):
-    """The short form of `wordarm torture`: refused, killed, damaged, repaired, compared."""
+    """The short form of `wordarm doctor --torture`: refused, killed, damaged, repaired, compared."""
     small = Settings(population=10, elites=2, parents=5, generations=230)
     tally = torture(Torture(tmp_path, kills=8, settings=small), print, reproduced[0])
     assert tally.kills == 8
@@ -105,10 +110,12 @@ def test_status_tells_the_same_from_another_terminal(reproduced, capsys):
 
 
 @pytest.mark.parametrize("condition", Condition)
-def test_the_command_of_a_run_starts_exactly_that_run(condition, tmp_path):
+def test_the_job_of_a_run_starts_exactly_that_run(condition, tmp_path):
     readings = Readings(sector_centres=(45.0, 90.0, 135.0), sector_half_width=3.0, mutation_sd=0.1 + 0.2)
     config = RunConfig(condition, 7, Settings(generations=12, trials_per_area=3), readings)
-    assert parse(evolve_arguments(config, tmp_path)).config == config
+    (chain,) = Plan(tmp_path, (config,)).chains()
+    word = calling(chain[0].function, chain[0].arguments)[-1]
+    assert RunConfig.from_mapping(json.loads(word)["config"]) == config
 
 
 def test_without_options_it_is_the_papers_size():
@@ -131,7 +138,7 @@ def test_a_preset_is_the_start_of_its_readings():
         (["--generations=0"], "setting generations = 0 must lie in [1, 1000000]"),
         (["--readings.object-radius=20"], "reading object_radius = 20 must lie in"),
         (["--preset=mine"], "unknown preset of readings 'mine'; there are default, printed"),
-        (["--output={file}"], "File exists; choose another folder"),
+        (["--output={file}"], "cannot be made: it is a file; choose another folder"),
     ],
 )
 def test_bad_input_gets_one_sentence_before_anything_starts(arguments, sentence, tmp_path, capsys):
@@ -186,7 +193,7 @@ def test_a_damaged_part_is_told_as_the_state_of_its_run(run_copy):
     (run_copy / "parts" / "gen-000200-000229.npz").write_bytes(b"nothing")
     standing = standing_of(run_copy, config)
     assert standing.state == "damaged"
-    assert "wordarm repair" in standing.damage
+    assert "--repair" in standing.damage
 
 
 def test_what_is_left_is_shared_by_the_processes():

@@ -95,9 +95,11 @@ def test_an_experiment_can_grow_and_status_knows_runs_that_were_not_started(done
     folder, _ = done
     assert main(["experiment", str(file), f"--output={folder}", "--seeds=1-3", "--dry-run"]) == 0
     listed = capsys.readouterr().out
-    assert re.search(r"default/with-indicate/seed-0001  120 generations, done", listed)
-    assert re.search(r"default/with-indicate/seed-0003  120 generations, about \d+ s", listed)
-    assert "6 runs: 2 variants x 1 condition x 3 seeds; 4 done\n" in listed
+    variant, other, whole, count = listed.splitlines()
+    assert re.fullmatch(r"default          3 x 120 generations, 2 done, about \d+ s in one process", variant)
+    assert re.fullmatch(r"object-radius-8  3 x 120 generations, 2 done, about \d+ s in one process", other)
+    assert re.fullmatch(r"about \d+ s in \d+ processes, by the pace of the runs so far", whole)
+    assert count == f"{folder}: 6 runs, 2 variants x 1 condition x 3 seeds"
     assert not (folder / "default" / "with-indicate" / "seed-0003").exists()
 
 

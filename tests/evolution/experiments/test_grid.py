@@ -12,7 +12,7 @@ from evolution.experiments.grid import read_experiment
 from evolution.experiments.plan import Plan
 from evolution.experiments.plan_file import read_plan, write_plan
 from evolution.experiments.spec import MOST_RUNS
-from evolution.experiments.variants import variant_name
+from evolution.experiments.variants import Variant, variant_name
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
@@ -88,10 +88,14 @@ def test_variants_go_before_the_whole_file_and_lists_in_them_are_grids_of_their_
     )
     names = spec.plan().variants
     assert list(names.values()) == ["default", "wide+mutation-sd-0.1", "wide+mutation-sd-0.03"]
-    worlds = {name: world for world, name in names.items()}
-    assert worlds["default"] == (Readings(ignore_stops="never", object_radius=8.0), Settings())
-    readings, settings = worlds["wide+mutation-sd-0.03"]
-    assert (readings.object_radius, readings.mutation_sd, settings.population) == (5.0, 0.03, 50)
+    variants = {name: variant for variant, name in names.items()}
+    assert variants["default"] == Variant(Readings(ignore_stops="never", object_radius=8.0), Settings())
+    wide = variants["wide+mutation-sd-0.03"]
+    assert (wide.readings.object_radius, wide.readings.mutation_sd, wide.settings.population) == (
+        5.0,
+        0.03,
+        50,
+    )
 
 
 def test_names_tell_different_values_apart():

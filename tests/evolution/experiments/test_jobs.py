@@ -2,28 +2,39 @@
 
 import os
 import signal
+import sys
 import time
 
 import pytest
 
-from evolution.experiments import workers
-from evolution.experiments.jobs import MOST_RESTARTS, Watcher, finished_files, run_jobs
-from evolution.experiments.workers import Job
-from evolution.runs.folder import LOCK
-from tests.evolution.small_runs import SMALL_FLAGS, contents
+from evolution.child import reference
+from evolution.experiments import warm_workers
+from evolution.experiments.jobs import MOST_RESTARTS, Overseer, finished_files, run_jobs
+from evolution.experiments.stages import evolve_run
+from evolution.experiments.warm_workers import WarmStart
+from evolution.experiments.workers import LOST, ColdStart, Job
+from evolution.runs.lock import last_word
+from tests.evolution.experiments.dask_processes import parent_of
+from tests.evolution.small_runs import SMALL, contents
+
+STAND_IN = """#!{python}
+import json, os, sys
+os.execvp('sh', ['sh', '-c', json.loads(sys.argv[-1])['command']])
+"""
 
 
 @pytest.fixture
 def shell(monkeypatch, tmp_path):
-    """Jobs whose only argument is a shell command: they are started as `<program> -m evolution <command>`."""
+    """Jobs whose only argument is a shell command, carried out by a program in the place of Python."""
     program = tmp_path / "program"
-    program.write_text('#!/bin/sh\nexec sh -c "$3"\n')
+    program.write_text(STAND_IN.format(python=sys.executable))
     program.chmod(0o755)
-    monkeypatch.setattr(workers.sys, "executable", str(program))
+    monkeypatch.setattr(sys, "executable", str(program))
     monkeypatch.chdir(tmp_path)
 
     def job(command, name="one"):
-        return Job(name, "working", (command,), tmp_path / name, tmp_path / "logs" / f"{name}.log")
+        log = tmp_path / "logs" / f"{name}.log"
+        return Job(name, "working", reference(evolve_run), {"command": command}, tmp_path / name, log)
 
     return job
 
@@ -37,7 +48,7 @@ def test_jobs_of_a_chain_follow_one_another(shell, tmp_path):
 def test_no_more_run_at_once_than_allowed(shell):
     at_work = []
     jobs = [[shell("sleep 0.1", name=str(i))] for i in range(5)]
-    run_jobs(jobs, at_once=2, watcher=Watcher(on_tick=lambda each: at_work.append(len(each))))
+    run_jobs(jobs, at_once=2, overseer=Overseer(on_tick=lambda each: at_work.append(len(each))))
     assert max(at_work) == 2
 
 
@@ -60,8 +71,8 @@ def test_sentences_of_earlier_attempts_are_not_taken_for_the_last(shell, tmp_pat
 def test_a_job_that_dies_without_progress_is_started_again_three_times(shell, tmp_path):
     notes, ends = [], []
     dying, other = shell("echo x >> starts; kill -9 $$"), shell("sleep 0.5; touch other", name="other")
-    watcher = Watcher(on_note=notes.append, on_end=ends.append)
-    (failure,) = run_jobs([[dying], [other]], at_once=2, watcher=watcher)
+    overseer = Overseer(on_note=notes.append, on_end=ends.append)
+    (failure,) = run_jobs([[dying], [other]], at_once=2, overseer=overseer)
     assert len((tmp_path / "starts").read_text().split()) == 1 + MOST_RESTARTS == 4
     assert notes == ["one: killed by SIGKILL while working; started again"] * MOST_RESTARTS
     assert failure.sentence.startswith("killed by SIGKILL, 4 times without progress")
@@ -89,7 +100,7 @@ def test_asked_to_stop_it_tells_all_and_starts_no_other(shell, tmp_path):
     trap = "trap 'touch $0 stopped-{0}; exit 130' TERM; touch begun-{0}; while :; do sleep 0.05; done"
     chains = [[shell(trap.format(i), name=str(i))] for i in range(2)] + [[shell("touch third", name="third")]]
     both_begun = lambda: len(list(tmp_path.glob("begun-*"))) == 2  # noqa: E731
-    assert run_jobs(chains, at_once=2, watcher=Watcher(wants_stop=both_begun)) == ()
+    assert run_jobs(chains, at_once=2, overseer=Overseer(wants_stop=both_begun)) == ()
     assert len(list(tmp_path.glob("stopped-*"))) == 2
     assert not (tmp_path / "third").exists()
 
@@ -100,15 +111,15 @@ def test_left_by_an_exception_it_leaves_no_process_behind(shell, tmp_path):
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_jobs([[shell("echo $$ > number; exec sleep 60")]], 1, Watcher(on_tick=interrupt))
+        run_jobs([[shell("echo $$ > number; exec sleep 60")]], 1, Overseer(on_tick=interrupt))
     with pytest.raises(ProcessLookupError):
         os.kill(int((tmp_path / "number").read_text()), 0)
 
 
 def test_a_job_that_may_not_start_yet_is_asked_for_again(shell, tmp_path):
     may_start_at = time.monotonic() + 0.4
-    watcher = Watcher(may_start=lambda job: time.monotonic() > may_start_at)
-    assert run_jobs([[shell("touch done")]], 1, watcher) == ()
+    overseer = Overseer(may_start=lambda job: time.monotonic() > may_start_at)
+    assert run_jobs([[shell("touch done")]], 1, overseer) == ()
     assert (tmp_path / "done").exists()
 
 
@@ -118,12 +129,83 @@ def test_a_run_whose_worker_is_killed_equals_an_undisturbed_one(finished_run, tm
 
     def kill_twice(jobs):
         if jobs and len(list(path.glob("parts/*.npz"))) > len(killed) and len(killed) < 2:
-            holder = int((path / LOCK).read_text() or 0)
+            holder = last_word(path).process
             if holder and holder not in killed:  # else the next worker does not hold the run yet
                 killed.append(holder)
                 os.kill(holder, signal.SIGKILL)
 
-    job = Job("small", "evolving", ("evolve", *SMALL_FLAGS, f"--output={path}"), path, tmp_path / "log")
-    assert run_jobs([[job]], at_once=1, watcher=Watcher(on_tick=kill_twice)) == ()
+    run = {"folder": str(path), "config": SMALL.to_mapping()}
+    job = Job("small", "evolving", reference(evolve_run), run, path, tmp_path / "log")
+    assert run_jobs([[job]], at_once=1, overseer=Overseer(on_tick=kill_twice)) == ()
     assert killed
     assert contents(path) == contents(finished_run)
+
+
+def test_the_fork_server_is_reached_by_no_path(tmp_path):
+    """A socket with a name could be spoken to by others."""
+    server = warm_workers._Server(tmp_path / "workers.log")
+    try:
+        assert server._socket.getsockname() == server._socket.getpeername() == ""
+    finally:
+        server.close()
+
+
+def long_job(folder, name="long"):
+    """Evolution that does not end by itself, in a folder of its own."""
+    config = SMALL.to_mapping()
+    config["settings"] |= {"generations": 1_000_000}
+    run = {"folder": str(folder / name), "config": config}
+    return Job(name, "evolving", reference(evolve_run), run, folder / name, folder / f"{name}.log")
+
+
+def wait_until(condition):
+    until = time.monotonic() + 120
+    while not condition():
+        assert time.monotonic() < until
+        time.sleep(0.01)
+
+
+def generations_of(job):
+    return last_word(job.folder).generations
+
+
+def ended(worker):
+    """How a worker ended, once it has."""
+    found = []
+    wait_until(lambda: found.append(worker.look()) or found[-1])
+    return found[-1]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["cold", "warm"])
+def test_of_a_killed_worker_it_is_known_how_it_ended_and_what_it_took(kind, tmp_path):
+    with WarmStart(tmp_path / "server.log") as warm:
+        worker = (warm if kind == "warm" else ColdStart()).start(job := long_job(tmp_path))
+        wait_until(lambda: generations_of(job) > 100)
+        pid = last_word(job.folder).process
+        assert os.getpgid(pid) == pid  # Ctrl-C reaches it through us only
+        open_files = {os.path.realpath(f"/proc/{pid}/fd/{each}") for each in os.listdir(f"/proc/{pid}/fd")}
+        assert open_files == {"/dev/null", str(job.log), str(job.folder / "lock")}
+        os.kill(pid, signal.SIGKILL)
+        end = ended(worker)
+    assert (end.exit_code, end.how) == (-signal.SIGKILL, "killed by SIGKILL")
+    assert end.wall > end.cpu > 0.02
+    assert 50 < end.peak < 1000
+    assert "from generation 0 on" in job.log.read_text()
+
+
+@pytest.mark.slow
+def test_workers_outlive_their_server_and_the_next_one_gets_another(tmp_path):
+    with WarmStart(tmp_path / "server.log") as warm:
+        first = warm.start(one := long_job(tmp_path, "one"))
+        wait_until(lambda: generations_of(one) > 0)
+        os.kill(parent_of(last_word(one.folder).process), signal.SIGKILL)
+        scored = generations_of(one)
+        wait_until(lambda: generations_of(one) > scored)
+        assert first.look() is None
+        second = warm.start(two := long_job(tmp_path, "two"))
+        wait_until(lambda: generations_of(two) > 0)
+        for worker in (first, second):
+            worker.stop()
+        assert ended(first).exit_code == LOST  # nobody saw its end
+        assert ended(second).exit_code == 130

@@ -7,11 +7,11 @@ from arm2d import ObjectWord
 from arm2d.constants import N_INPUTS
 from arm2d.drawing import OBJECT_COLOURS
 from evolution.figures.concept import AGENT, INSTRUCTION, SENSES, concept_figure, example
-from evolution.runs.sources import find_source
+from evolution.runs.sources import find_agent
 
 
 def drawn():
-    agent = find_source(AGENT)
+    agent = find_agent(AGENT)
     return concept_figure(example(agent.genotype, agent.readings))
 
 
@@ -33,7 +33,7 @@ def test_the_words_of_the_instruction_are_lit_and_no_other():
 
 
 def test_the_target_is_not_touched_yet_where_the_arm_is_shown():
-    agent = find_source(AGENT)
+    agent = find_agent(AGENT)
     record = example(agent.genotype, agent.readings)
     assert (record.contact[:, ObjectWord.GREEN] != 0).any()
     assert not record.contact[0].any()

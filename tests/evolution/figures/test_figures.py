@@ -8,14 +8,13 @@ from matplotlib.figure import Figure
 
 from arm2d import Condition, Readings
 from arm2d.drawing import OBJECT_COLOURS
+from evolution.figures.page import save_figure
 from evolution.figures.run import (
     draw_fitness_curve,
     draw_heat_map,
     fitness_curve,
     heat_map,
-    largest_fitness,
     running_median,
-    save_figure,
 )
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
@@ -58,15 +57,10 @@ def test_object_words_are_written_in_the_colours_of_the_objects(evaluation):
     assert colours == list(OBJECT_COLOURS.values())
 
 
-def test_the_largest_fitness_is_18_sevenths():
-    for condition in Condition:
-        assert largest_fitness(condition) == pytest.approx(18 / 7, rel=1e-15)
-
-
 def test_fitness_curve_draws_best_mean_and_the_limit(finished_run):
     history = recorded_history(RunFolder.open(finished_run))
     axes = Figure().add_subplot()
-    draw_fitness_curve(axes, history, Condition.WITH_INDICATE)
+    draw_fitness_curve(axes, history)
     drawn = [np.asarray(line.get_ydata(), dtype=float) for line in axes.lines]
     for values in (history.best, history.mean):
         assert any(np.array_equal(line, values) for line in drawn)
@@ -82,7 +76,7 @@ def test_running_median_passes_over_outliers_and_keeps_the_length():
 
 def test_a_single_generation_can_be_drawn(finished_run):
     history = recorded_history(RunFolder.open(finished_run))[:1]
-    (axes,) = fitness_curve(history, Condition.WITH_INDICATE, "one").axes
+    (axes,) = fitness_curve(history, "one").axes
     assert history.best[0] in [line.get_ydata()[0] for line in axes.lines]
 
 

@@ -9,10 +9,9 @@ import pytest
 
 from arm2d import Condition, Readings
 from evolution.agents.postevaluation import post_evaluate
-from evolution.agents.transition_test import run_transition_test
+from evolution.agents.transitions import run_transition_test
 from evolution.cli import main
 from evolution.experiments.experiment import open_experiment
-from evolution.figures.compare import compare_figure
 from evolution.results import published
 from evolution.results.analysis import analyse
 from evolution.results.key_numbers import AT_LIMIT, PLATEAU, by_condition, departures, key_numbers, top_name
@@ -66,7 +65,7 @@ def test_no_agent_of_a_class_is_no_share_rather_than_nought(results):
 
 def test_command_writes_a_table_and_a_figure(experiments, tmp_path, capsys):
     folders = [str(experiments / name) for name in ("default", "larger")]
-    assert main(["compare", *folders, f"--output={tmp_path}"]) == 0
+    assert main(["analyse", *folders, f"--output={tmp_path}"]) == 0
     assert {each.name for each in tmp_path.iterdir()} == {
         "comparison.csv", "comparison.png", "comparison.svg",
     }  # fmt: skip
@@ -80,14 +79,6 @@ def test_command_writes_a_table_and_a_figure(experiments, tmp_path, capsys):
     assert "larger: object radius 8.0" in capsys.readouterr().out
 
 
-def test_figure_has_every_run_of_every_experiment(results):
-    figure = compare_figure(results)
-    assert len(figure.axes) == 2 * 4
-    drawn = [x for line in figure.axes[0].lines for x in np.atleast_1d(line.get_xdata())]
-    for each in results.values():
-        assert each.conditions[Condition.WITH_INDICATE].plateau[0] in drawn
-
-
 def test_readings_are_told_where_they_differ():
     assert departures(Readings()) == "default readings"
     assert departures(replace(Readings(), object_radius=8.0)) == "object radius 8.0"
@@ -96,11 +87,12 @@ def test_readings_are_told_where_they_differ():
 def test_bad_input_gets_one_sentence(experiments, tmp_path, capsys):
     one = str(experiments / "default")
     for arguments, words in (
-        ([one], "asked to compare 1 experiment; give at least two folders"),
+        ([], "no experiment is named; give its folder, such as runs/default"),
         ([one, one], "is given twice; give different experiments"),
         ([one, str(tmp_path)], "holds no runs"),
+        ([one, str(tmp_path), "--ship=x"], "--ship takes the agents of one experiment; name one"),
     ):
-        assert main(["compare", *arguments, f"--output={tmp_path / 'new'}"]) == 2
+        assert main(["analyse", *arguments, f"--output={tmp_path / 'new'}"]) == 2
         captured = capsys.readouterr()
         assert words in captured.err
         assert captured.err.count("\n") == 1
@@ -111,7 +103,7 @@ def test_an_experiment_without_results_stands_empty_and_is_named(experiments, tm
     bare = shutil.copytree(experiments / "larger", tmp_path / "bare")
     shutil.rmtree(bare / "with-indicate" / "seed-0001" / "postevaluation")
     flags = [str(experiments / "larger"), str(bare), f"--output={tmp_path / 'out'}"]
-    assert main(["compare", *flags]) == 0
+    assert main(["analyse", *flags]) == 0
     assert "bare: with-indicate, seed 1: left out, not post-evaluated" in capsys.readouterr().out
     (by_name,) = by_condition({"bare": analyse(open_experiment(bare))}).values()
     assert np.isnan(by_name["bare"][0].ours)

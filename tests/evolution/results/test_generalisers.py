@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from evolution.agents.postevaluation import late_spans
+from evolution.agents.parts import late_spans
 from evolution.figures.generalisers import draw_density, draw_marks
 from evolution.results.generalisers import (
     generalisers_of,
@@ -12,7 +12,6 @@ from evolution.results.generalisers import (
     mean_rank_against_chance,
     spell_lengths,
 )
-from evolution.results.statistics import sign_flip_test
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.search.algorithm import rank
@@ -91,12 +90,6 @@ def test_chance_is_the_middle_rank_and_the_run_is_the_unit(run, late):
     mean, p = mean_rank_against_chance([above])
     assert p == 1  # thirty agents of one run prove nothing
     assert np.isnan(mean_rank_against_chance([none])).all()
-
-
-def test_sign_flips_give_the_exact_p():
-    assert sign_flip_test(np.array([1.0, 2.0, 3.0])) == pytest.approx(2 / 8)
-    assert sign_flip_test(np.array([1.0, -1.0])) == 1
-    assert sign_flip_test(np.full(17, 0.5) + np.arange(17) / 100) < 1e-6
 
 
 def test_every_fully_compositional_agent_is_a_mark_above_the_partial_ones(run, late):

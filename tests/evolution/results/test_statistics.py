@@ -10,6 +10,7 @@ from evolution.results.statistics import (
     mean_interval,
     midranks,
     permutation_test,
+    sign_flip_test,
 )
 
 RNG = np.random.default_rng(0)
@@ -71,3 +72,28 @@ def test_bootstrap_resamples_each_group_apart():
 def test_comparison_without_runs_is_refused():
     with pytest.raises(ValueError, match="a comparison needs runs of both conditions; there are 0 and 3"):
         compare(np.empty(0), np.ones(3), rng())
+
+
+def test_sign_flips_give_the_exact_p():
+    assert sign_flip_test(np.array([1.0, 2.0, 3.0])) == pytest.approx(2 / 8)
+    assert sign_flip_test(np.array([1.0, -1.0])) == 1
+
+
+def test_sign_flips_agree_with_scipy_up_to_sixteen_runs_and_are_students_test_beyond():
+    differences = RNG.normal(0.3, 1.0, 11)
+    theirs = stats.permutation_test(
+        (differences,),
+        lambda flipped: abs(flipped.sum()),
+        permutation_type="samples",
+        n_resamples=np.inf,
+        alternative="greater",
+    ).pvalue
+    assert sign_flip_test(differences) == pytest.approx(theirs)
+    many = RNG.normal(0.3, 1.0, 17)
+    assert sign_flip_test(many) == pytest.approx(stats.ttest_1samp(many, 0.0).pvalue, rel=1e-12)
+
+
+def test_worlds_alike_in_every_run_do_not_differ_however_many_runs_there_are():
+    for n in (4, 16, 17, 40):
+        assert sign_flip_test(np.zeros(n)) == 1.0
+    assert sign_flip_test(np.full(17, 0.5)) == 0.0

@@ -1,5 +1,4 @@
 import numpy as np
-from tests.evolution.small_runs import SMALL
 
 from arm2d import NON_EXPERIENCED
 from evolution.runs import champion
@@ -8,6 +7,7 @@ from evolution.runs.folder import CHAMPIONS, RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.search import scoring
 from evolution.search.evaluation import evaluate
+from tests.evolution.small_runs import SMALL
 
 
 def test_candidates_are_the_distinct_best_of_the_last_100_generations(finished_run):

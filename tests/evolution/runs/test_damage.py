@@ -1,7 +1,6 @@
 import shutil
 
 import pytest
-from tests.evolution.small_runs import SMALL, contents
 
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
@@ -9,6 +8,7 @@ from evolution.runs.run import Watcher, evolve
 from evolution.runs.storage import DamagedFileError, read_arrays, write_arrays
 from evolution.trust import repair as repair_module
 from evolution.trust.repair import repair
+from tests.evolution.small_runs import SMALL, contents
 
 FIRST, SECOND, LAST = "gen-000000-000099.npz", "gen-000100-000199.npz", "gen-000200-000229.npz"
 
@@ -36,9 +36,8 @@ def empty(path):
 def test_a_damaged_part_is_named_with_the_command_that_repairs(run_copy, part, damage):
     damage(run_copy / "parts" / part)
     first, last = int(part[4:10]), int(part[11:17])
-    sentence = (
-        rf"{part} is damaged .*; recompute generations {first} to {last} with: wordarm repair {run_copy}"
-    )
+    command = f"wordarm verify {run_copy} --repair"
+    sentence = f"{part} is damaged .*; recompute generations {first} to {last} with: {command}"
     with pytest.raises(DamagedFileError, match=sentence):
         evolve(run_copy, SMALL)
     with pytest.raises(DamagedFileError, match=sentence):

@@ -4,6 +4,7 @@ import subprocess
 import sys
 
 import pytest
+
 from tests.evolution.small_runs import SMALL_FLAGS, contents
 
 pytestmark = pytest.mark.slow

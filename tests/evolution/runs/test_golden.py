@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from tests.evolution.runs.golden import BASE, RUNS, STORED, fingerprint
 
 STORED_BITS = json.loads(STORED.read_text())
@@ -25,7 +26,10 @@ def test_every_alternative_is_another_experiment():
 @pytest.mark.slow
 def test_compiled_for_the_oldest_x86_64_all_readings_give_the_stored_bits():
     """One process, compiled once; `python -m benchmarks.same_bits` does the same for newer targets."""
-    script = f"import json; from tests.evolution.runs import golden; print(json.dumps(golden.fingerprints({SHORT_RUNS!r})))"
+    script = (
+        "import json; from tests.evolution.runs import golden; "
+        f"print(json.dumps(golden.fingerprints({SHORT_RUNS!r})))"
+    )
     done = subprocess.run(
         [sys.executable, "-c", script],
         cwd=Path(__file__).parents[3],

@@ -44,7 +44,7 @@ def test_a_lease_is_there_while_it_is_held_and_gone_after_it(tmp_path):
 def test_a_run_that_is_alive_on_another_machine_is_refused_and_left_alone(run_copy, capsys):
     leave(run_copy)
     before = (run_copy / LEASE).read_bytes()
-    assert main(["repair", str(run_copy)]) == 2
+    assert main(["verify", str(run_copy), "--repair"]) == 2
     assert f"process 7 on node12 works on {run_copy}" in capsys.readouterr().err
     assert (run_copy / LEASE).read_bytes() == before
     assert is_held(run_copy)
@@ -67,11 +67,32 @@ def test_a_lease_that_cannot_be_read_is_waited_for_like_any_other(content, tmp_p
         pass
 
 
+@pytest.mark.parametrize("holder", [ELSEWHERE, None])
+def test_a_lease_dated_in_the_future_is_judged_by_whether_it_moves(holder, tmp_path):
+    """A clock was set back by a day: the dead lapse as ever, and who goes on touching is alive."""
+    leave(tmp_path, age=-86_400)
+    if holder is None:
+        (tmp_path / LEASE).write_text("")
+        os.utime(tmp_path / LEASE, (time.time() + 86_400,) * 2)
+    assert not is_held(tmp_path)  # for whoever only looks, such a date is no sign of life
+    with pytest.raises(RunInUseError, match="or did so less than 90 s ago"), locked(tmp_path):
+        pass
+    dated = (tmp_path / LEASE).stat().st_mtime
+    assert abs(dated - time.time()) < 3600
+    with pytest.raises(RunInUseError), locked(tmp_path):  # asked again, it is not dated again
+        pass
+    assert (tmp_path / LEASE).stat().st_mtime == dated
+    os.utime(tmp_path / LEASE, (dated - LAPSE - 5,) * 2)  # nobody touched it for so long
+    with locked(tmp_path):
+        assert json.loads((tmp_path / LEASE).read_text())["process"] == os.getpid()
+
+
 def holder_process(folder, renewal=15.0):
     """A real process that holds a folder, and has said so."""
     code = (
         "import sys, time; from pathlib import Path; from evolution.runs import lease; "
-        f"from evolution.runs.lock import locked\nlease.RENEWAL = {renewal}\nwith locked(Path(sys.argv[1])):\n"
+        "from evolution.runs.lock import locked\n"
+        f"lease.RENEWAL = {renewal}\nwith locked(Path(sys.argv[1])):\n"
         "    print('held', flush=True); time.sleep(60)"
     )
     process = subprocess.Popen(

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.evolution.small_runs import SMALL, contents
 
 from evolution.runs import meta
 from evolution.runs.folder import RunFolder
@@ -20,6 +19,7 @@ from evolution.runs.run import Watcher, evolve
 from evolution.search.population import first_population, next_population
 from evolution.search.scoring import score_population
 from evolution.search.settings import Settings
+from tests.evolution.small_runs import SMALL, contents
 
 
 def stopping_at(*generations):
@@ -139,7 +139,9 @@ def test_asking_for_the_revision_leaves_the_index_alone(tmp_path):
         subprocess.run([*git, *arguments], check=True)
     index = tmp_path / ".git" / "index"
     before = index.stat().st_mtime_ns, index.stat().st_ino
-    os.utime(package / "runs" / "run.py", (1, 1))  # git would note in the index that it is unchanged all the same
+    os.utime(
+        package / "runs" / "run.py", (1, 1)
+    )  # git would note in the index that it is unchanged all the same
     code = "from evolution.runs.meta import revision; print(revision())"
     environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
     asked = [sys.executable, "-c", code]

@@ -1,13 +1,13 @@
 """The same bits however many processes share the runs; other processors are in test_golden.py."""
 
 import pytest
-from tests.evolution.small_runs import contents
 
 from arm2d import Condition
 from evolution.experiments.plan import Plan
 from evolution.experiments.plan_runner import run_plan
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
+from tests.evolution.small_runs import contents
 
 TINY = Settings(population=8, elites=2, parents=4, generations=12, trials_per_area=1)
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, Readings
-from evolution.report.evaluation import rows_of, terminal_table, to_csv, to_json
-from evolution.runs.sources import Source
+from evolution.report.evaluation import instruction_table, terminal_table, to_json
+from evolution.runs.sources import Agent
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import evaluate
 from tests.evolution.small_runs import SMALL
@@ -57,11 +57,13 @@ def test_fitness_is_the_sum_of_its_parts():
 
 def test_csv_and_json_tell_what_the_evaluation_does():
     result = evaluate(GENOTYPES[0], SMALL.condition, SMALL.readings, per_area=2)
-    source = Source(GENOTYPES[0], SMALL.condition, SMALL.readings, "somewhere", "agent")
-    from_csv = list(csv.DictReader(io.StringIO(to_csv(result))))
+    source = Agent(GENOTYPES[0], SMALL.condition, SMALL.readings, "somewhere", "agent")
+    from_csv = list(csv.DictReader(io.StringIO(instruction_table(result).to_csv())))
     content = json.loads(to_json(result, source))
-    assert content["instructions"] == rows_of(result)
-    assert [each["instruction"] for each in from_csv] == [each["instruction"] for each in rows_of(result)]
+    assert content["instructions"] == instruction_table(result).rows()
+    assert [each["instruction"] for each in from_csv] == [
+        each["instruction"] for each in instruction_table(result).rows()
+    ]
     assert [int(each["successes"]) for each in from_csv] == result.successes[0].sum(axis=-1).tolist()
     assert Readings.from_mapping(content["readings"]) == SMALL.readings
 

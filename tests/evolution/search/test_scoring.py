@@ -9,7 +9,7 @@ from evolution.search.algorithm import initial_genotypes
 from evolution.search.config import RunConfig
 from evolution.search.population import Population, first_population
 from evolution.search.scoring import draw_evolution_trials, score_population
-from evolution.search.settings import Settings
+from evolution.search.settings import LARGEST_FITNESS, LARGEST_TRIAL_FITNESS, Settings
 
 CONFIG = RunConfig(seed=5, settings=Settings(population=10, parents=5))
 SHARED, OWN = CONFIG, replace(CONFIG, readings=Readings(starts_shared="genotype"))
@@ -75,3 +75,10 @@ def test_equal_genotypes_score_equally_only_if_starts_are_shared():
     population = Population(0, genotypes, np.zeros(10, dtype=np.int64))
     assert len(set(score_population(population, SHARED).tolist())) == 1
     assert len(set(score_population(population, OWN).tolist())) > 1
+
+
+@pytest.mark.parametrize("condition", Condition)
+def test_the_largest_fitness_is_a_mean_of_three_points_and_two_for_the_third_action(condition):
+    largest = [2.0 if word.action is condition.third_action else 3.0 for word in condition.experienced]
+    assert np.mean(largest) == pytest.approx(LARGEST_FITNESS, rel=1e-15)
+    assert max(largest) == LARGEST_TRIAL_FITNESS

@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from evolution.results.records import FITNESS_LIMIT, PLATEAU_TOLERANCE
+from evolution.results.records import PLATEAU_TOLERANCE
 from evolution.results.statistics import sign_flip_test
+from evolution.search.settings import LARGEST_FITNESS
 
 DOCS = Path(__file__).parents[3] / "docs"
 PAGE = (DOCS / "readings.md").read_text(encoding="utf-8")
@@ -57,7 +58,7 @@ def test_finalists_table_says_what_the_runs_say(runs):
     for name, condition, plateau, at_limit, fresh, share, compositional in rows:
         own = [runs[NAMES[name], condition.lower(), seed] for seed in range(1, 21)]
         found = plateaus(runs, NAMES[name], condition, range(1, 21))
-        reached = found >= FITNESS_LIMIT - PLATEAU_TOLERANCE
+        reached = found >= LARGEST_FITNESS - PLATEAU_TOLERANCE
         assert plateau.startswith(f"{found.mean():.2f} [")
         assert int(at_limit.strip("*")) == reached.sum()
         assert int(fresh.split()[0]) == reached[10:].sum()
@@ -78,7 +79,7 @@ def test_fresh_seeds_say_what_the_page_quotes_of_them(runs):
 
 
 def test_plateaus_lack_whole_instructions_as_often_as_the_page_says(runs):
-    missing = {key: FITNESS_LIMIT - float(run["plateau"]) for key, run in runs.items()}
+    missing = {key: LARGEST_FITNESS - float(run["plateau"]) for key, run in runs.items()}
     sevenths = {key: round(7 * gap) for key, gap in missing.items()}
     near = sum(abs(gap - sevenths[key] / 7) <= 0.02 for key, gap in missing.items())
     one_short = [run for key, run in runs.items() if key[1] == "with-ignore" and sevenths[key] == 1]
@@ -101,7 +102,7 @@ def test_sizes_of_mutations_do_what_the_page_says():
         found = plateaus(around, name, "with-indicate", range(1, 9))
         tops = [float(around[name, "with-indicate", seed]["sub-task I, category 10"]) for seed in range(1, 9)]
         assert plateau.startswith(f"{found.mean():.2f} [")
-        assert int(at_limit) == (found >= FITNESS_LIMIT - PLATEAU_TOLERANCE).sum()
+        assert int(at_limit) == (found >= LARGEST_FITNESS - PLATEAU_TOLERANCE).sum()
         assert share == f"{100 * np.mean(tops):.0f} %"
 
 
@@ -127,7 +128,7 @@ def test_confirmation_table_says_what_the_runs_say(runs):
         found = plateaus(both_parts, names[name], condition, FRESH)
         own = [both_parts[names[name], condition.lower(), seed] for seed in FRESH]
         assert plateau.startswith(f"{found.mean():.2f} [")
-        assert int(at_limit.strip("*")) == (found >= FITNESS_LIMIT - PLATEAU_TOLERANCE).sum()
+        assert int(at_limit.strip("*")) == (found >= LARGEST_FITNESS - PLATEAU_TOLERANCE).sum()
         top = 100 * np.mean([float(run["sub-task I, category 10"]) for run in own])
         assert share.strip("*").startswith(f"{top:.0f} % [")
         assert int(compositional) == sum(float(run["fully compositional"]) > 0 for run in own)

@@ -1,7 +1,6 @@
 """The study of readings: its variants, what runs are measured by, its tables and pictures."""
 
 import csv
-import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,25 +8,24 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, Readings
-from arm2d.readings import choices
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.cli import main
-from evolution.report.files import to_csv
+from evolution.experiments.variants import variant_name
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.run import evolve
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.study.effects import effect_rows, effects, holm
+from evolution.study.effects import effect_table, effects, holm
 from evolution.study.figure import effects_figure, failures_figure
-from evolution.study.measures import FILE, measure
+from evolution.study.measures import FILE, RunMeasures, measure
 from evolution.study.results import write_study
-from evolution.study.table import group, nearest, run_rows, variant_rows
-from evolution.study.variants import FACTORS, around, confirmation, finalists, screening
+from evolution.study.table import VariantMeasures, group, nearest, run_table, variant_table
+from evolution.study.variants import around, confirmation, finalists, screening
 
-LEDGER = (Path(__file__).parents[3] / "docs" / "ledger.md").read_text(encoding="utf-8")
+RESULTS = Path(__file__).parents[3] / "docs" / "results" / "readings"
 SETTINGS = Settings(population=12, elites=2, parents=6, generations=40)
 
 
@@ -43,35 +41,11 @@ def measured(tmp_path_factory):
     return path, named
 
 
-def listed_numbers():
-    """(reading, its alternative) for every number of the ledger that is not a default."""
-    rows = re.findall(r"^\| `(\w+)` \| .*? \| (.*?) \| .*? \|$", LEDGER, re.MULTILINE)
-    return [(name, text) for name, values in rows for text in re.findall(r"`([\d., ]+)`", values)]
-
-
-# Readings that came into the ledger after these parts of the study had been run.
-YOUNGER = {
-    ("parent_scaling", "excess"),
-    ("parent_scaling", "rank"),
-    ("crossover", 0.3),
-    ("object_radius", 11.8),
-    ("camera_origin", "end"),
-}
-
-
-def test_every_alternative_of_the_ledger_is_tried():
-    tried = {(name, value) for overrides in FACTORS for name, value in overrides.items()}
-    words = {
-        (name, value)
-        for name, allowed in choices().items()
-        for value in allowed
-        if value != getattr(Readings(), name)
-    }
-    # Under With-Indicate no instruction is IGNORE.
-    assert words - tried - YOUNGER == {("ignore_stops", "never")}
-    for name, text in listed_numbers():
-        numbers = tuple(float(part) for part in text.split(","))
-        assert (name, numbers if name == "sector_centres" else numbers[0]) in tried | YOUNGER
+def test_screening_stays_as_it_was_run():
+    """New readings go into the factorial study: these rows are history."""
+    with (RESULTS / "screening-variants.csv").open(encoding="utf-8") as file:
+        run = [row["variant"] for row in csv.DictReader(file)]
+    assert [variant_name(world) for world in screening().worlds] == run
 
 
 PARTS = [screening(), finalists([Readings(object_radius=8.0), Readings()]), around()]
@@ -97,6 +71,68 @@ def test_nearest_variant_is_the_one_whose_numbers_are_the_published_ones(measure
     variants = group(measured[1])
     plateau = max(variants, key=lambda each: each.plateaus.mean())  # neither reaches the published share
     assert [each.name for each in nearest(variants, 1)] == [plateau.name]
+
+
+def variant(name, plateau, top_share, *, seeds=(1, 2), generations=3000, **changed):
+    """Runs whose plateaus and shares of agents in category 10 of sub-task I are these."""
+    top = np.arange(100)[:, np.newaxis, np.newaxis, np.newaxis] < 100 * top_share
+    successes = np.broadcast_to(np.where(top, 40, 0), (100, 5, 9, 2)).astype(np.int16)
+    runs = []
+    for seed in seeds:
+        config = RunConfig(
+            Condition.WITH_INDICATE, seed, Settings(generations=generations), Readings(**changed)
+        )
+        runs.append(RunMeasures(config, plateau, 7, 0.5, successes))
+    return VariantMeasures(name, Condition.WITH_INDICATE, generations, tuple(runs))
+
+
+def test_nearest_looks_at_the_share_of_agents_where_plateaus_are_alike():
+    """The published share is 60 %: too many is as far off as too few."""
+    shares = {"none": 0.0, "all": 1.0, "some": 0.5, "published": 0.6}
+    variants = [variant(name, 2.4, share) for name, share in shares.items()]
+    assert [near.name for near in nearest(variants, 4)] == ["published", "some", "all", "none"]
+
+
+def test_nearest_looks_at_plateaus_where_shares_are_alike():
+    plateaus = {"low": 1.9, "high": 2.55, "middle": 2.2}
+    variants = [variant(name, plateau, 0.3) for name, plateau in plateaus.items()]
+    assert [near.name for near in nearest(variants, 3)] == ["high", "middle", "low"]
+
+
+def test_nearest_counts_both_ranks_the_same():
+    first_and_last, both_second = variant("a", 2.57, 0.0), variant("b", 2.5, 0.5)
+    last_and_third = variant("c", 2.0, 0.4)
+    last = variant("d", 1.9, 0.61)
+    # Ranks of plateau and share: a 1 + 4, b 2 + 2, c 3 + 3, d 4 + 1; equals stand as they came.
+    variants = [first_and_last, both_second, last_and_third, last]
+    assert [near.name for near in nearest(variants, 4)] == ["b", "a", "d", "c"]
+
+
+def test_only_runs_of_one_length_and_condition_make_a_pair():
+    default, longer = variant("default", 2.2, 0.1), variant("longer", 2.5, 0.1, generations=6000)
+    wide = variant("wide", 2.3, 0.1, object_radius=8.0)
+    ignore = replace(
+        wide,
+        condition=Condition.WITH_IGNORE,
+        runs=tuple(
+            replace(run, config=replace(run.config, condition=Condition.WITH_IGNORE)) for run in wide.runs
+        ),
+    )
+    assert effects([longer, wide]) == []
+    assert effects([default, ignore]) == []
+    assert effects([default, longer]) == []
+    (effect,) = effects([default, longer, wide, ignore])
+    assert effect.pairs == ((default, wide),)
+    assert effect.differences == pytest.approx([0.1, 0.1])
+
+
+def test_only_seeds_that_all_worlds_have_are_counted():
+    default = variant("default", 2.2, 0.1, seeds=(1, 2, 4))
+    wide = variant("wide", 2.3, 0.1, seeds=(2, 3, 4), object_radius=8.0)
+    (effect,) = effects([default, wide])
+    assert effect.seeds == [2, 4]
+    for runs in (effect.without, effect.changed):
+        assert [run.config.seed for run in runs] == [2, 4]
 
 
 def test_sampled_agents_are_those_of_the_post_evaluation(measured):
@@ -155,13 +191,33 @@ def test_runs_are_put_together_by_variant_and_ordered_by_seed(measured):
 
 def test_rows_hold_what_was_measured(measured):
     variants = group(measured[1])
-    runs = list(csv.DictReader(to_csv(run_rows(variants)).splitlines()))
+    runs = list(csv.DictReader(run_table(variants).to_csv().splitlines()))
     assert [row["seed"] for row in runs] == ["1", "2", "1", "2"]
     assert float(runs[0]["plateau"]) == pytest.approx(variants[0].runs[0].plateau, abs=1e-4)
-    one, other = csv.DictReader(to_csv(variant_rows(variants)).splitlines())
+    one, other = csv.DictReader(variant_table(variants).to_csv().splitlines())
     mean = np.mean([float(row["plateau"]) for row in runs[2:]])
     assert float(other["plateau"]) == pytest.approx(mean, abs=1e-4)
     assert float(one["plateau low"]) <= float(one["plateau"]) <= float(one["plateau high"])
+
+
+def test_a_variant_and_its_runs_are_told_with_their_own_numbers():
+    """Successes that differ in every instruction and area; one run of three never solved all its trials."""
+    successes = np.tile(np.arange(5, 23).reshape(9, 2), (100, 5, 1, 1)).astype(np.int16)
+    base = variant("default", 2.4, 0.0, seeds=(1, 2, 3))
+    runs = [
+        replace(run, successes=successes, first_solved=first)
+        for run, first in zip(base.runs, (100, -1, 250), strict=True)
+    ]
+    told = replace(base, runs=tuple(runs))
+    (row,) = csv.DictReader(variant_table([told]).to_csv().splitlines())
+    assert (row["runs that solve all trials"], row["median generation of these"]) == ("2", "175")
+    assert (row["weakest instruction"], row["from"]) == ("MOVE Green", "right")
+    assert float(row["its success"]) == pytest.approx(7 / 40, abs=5e-4)
+    by_run = list(csv.DictReader(run_table([told]).to_csv().splitlines()))
+    assert [run["first generation that solved all trials"] for run in by_run] == ["100", "never", "250"]
+    for place, name in enumerate(list(by_run[0])[-18:]):
+        assert name.endswith(("right", "left")[place % 2])
+        assert float(by_run[0][name]) == pytest.approx((5 + place) / 40, abs=5e-4)
 
 
 def test_weakest_instruction_is_the_least_carried_out_of_the_experienced(measured):
@@ -179,8 +235,8 @@ def test_effect_of_a_reading_is_its_difference_seed_by_seed(measured):
     (effect,) = effects(variants)
     assert (effect.reading, effect.value, effect.seeds) == ("object_radius", 8.0, [1, 2])
     np.testing.assert_array_equal(effect.differences, variants[1].plateaus - variants[0].plateaus)
-    assert effect.runs == (list(variants[0].runs), list(variants[1].runs))
-    (row,) = csv.DictReader(to_csv(effect_rows(variants)).splitlines())
+    assert (effect.without, effect.changed) == (list(variants[0].runs), list(variants[1].runs))
+    (row,) = csv.DictReader(effect_table(variants).to_csv().splitlines())
     assert float(row["plateau, difference"]) == pytest.approx(effect.differences.mean(), abs=1e-4)
     # Two seeds have four choices of signs, two of which are at least as far off as any.
     assert float(row["p"]) == float(row["p after Holm"]) == (1.0 if np.prod(effect.differences) < 0 else 0.5)

@@ -1,4 +1,4 @@
-"""What `wordarm torture` is made of; that an experiment survives it stands in test_reproduce.py."""
+"""What `wordarm doctor --torture` is made of; that an experiment survives it stands in test_reproduce.py."""
 
 import os
 import random
@@ -7,13 +7,15 @@ import sys
 
 import pytest
 
+from arm2d.files import final_name, is_temporary
+from evolution.child import calling
 from evolution.runs.folder import RunFolder
 from evolution.trust.disturbances import DAMAGES, _must_be_refused, damage_and_repair
 from evolution.trust.killing import TortureError, _unfinished
-from evolution.trust.stages import Schedule, final_name, is_temporary, stage_of, temporaries
+from evolution.trust.stages import Schedule, stage_of, temporaries
 from evolution.trust.tally import PARENT, WORKER, Tally
-from evolution.trust.torture import _compare
-from evolution.trust.victims import holder_of, kill, members, names
+from evolution.trust.torture import MARK, Torture, _compare, _make_anew, torture
+from evolution.trust.victims import kill, members, names
 from evolution.trust.watch import OpenedFiles
 
 
@@ -36,7 +38,7 @@ def sleeper(tmp_path):
     """A process in a session of its own, with a child that sleeps like itself."""
     child = "import time; print('ready', flush=True); time.sleep(60)"
     program = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {child!r}, *sys.argv[1:]])"
-    command = [sys.executable, "-c", program, str(tmp_path / "run")]
+    command = [sys.executable, "-c", program, calling("evolution", {"folder": str(tmp_path / "run")})[-1]]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, start_new_session=True)
     assert process.stdout.readline() == b"ready\n"
     yield process
@@ -62,18 +64,10 @@ def test_a_process_of_another_session_is_spared(sleeper):
     assert sleeper.poll() is None
 
 
-def test_the_holder_of_a_run_is_read_from_its_lock(tmp_path):
-    assert holder_of(tmp_path) == 0
-    (tmp_path / "lock").write_text("")
-    assert holder_of(tmp_path) == 0
-    (tmp_path / "lock").write_text("4711\n")
-    assert holder_of(tmp_path) == 4711
-
-
 def test_temporary_files_tell_what_was_being_written(tmp_path):
-    file = tmp_path / "run" / "parts" / ".gen-000000-000099.npz.tmp"
-    assert is_temporary(file)
-    assert final_name(file) == "gen-000000-000099.npz"
+    file = tmp_path / "run" / "parts" / ".gen-000000-000099.npz.0123456789abcdef.tmp"
+    assert is_temporary(file.name)
+    assert final_name(file.name) == "gen-000000-000099.npz"
     assert stage_of(file) == "part"
     assert stage_of(tmp_path / "run" / ".checkpoint.npz.tmp") == "checkpoint"
     assert stage_of(tmp_path / "run" / "postevaluation" / ".solved.npz.tmp") == "solved trials"
@@ -132,3 +126,20 @@ def test_an_unfinished_file_that_gets_its_name_while_it_is_counted_is_none(tmp_p
         tmp_path / "gone"
     )  # listed, and not there when it is looked at
     assert [each.name for each, _ in _unfinished(tmp_path)] == [".part.npz.tmp"]
+
+
+def test_a_folder_that_an_earlier_torture_did_not_make_is_neither_removed_nor_used(tmp_path):
+    (tmp_path / "tortured-1").mkdir()
+    (tmp_path / "tortured-1" / "thesis.txt").write_text("a year's work")
+    with pytest.raises(
+        ValueError, match=r"tortured-1 is not of an earlier torture \(it has no .*give another"
+    ):
+        torture(Torture(tmp_path, kills=1), print, undisturbed=tmp_path / "undisturbed")
+    assert [each.name for each in tmp_path.rglob("*")] == ["tortured-1", "thesis.txt"]
+
+
+def test_what_an_earlier_torture_left_makes_room_for_the_next(tmp_path):
+    _make_anew(tmp_path / "tortured-1")
+    (tmp_path / "tortured-1" / "left").touch()
+    _make_anew(tmp_path / "tortured-1")
+    assert [each.name for each in (tmp_path / "tortured-1").iterdir()] == [MARK]

@@ -98,14 +98,14 @@ def test_what_is_damaged_or_missing_is_named_with_its_repair_and_all_else_compar
     (run_copy / "champions.npz").unlink()
     assert main(["verify", str(run_copy), "--sample=1"]) == 1
     *_, first, second, third, last = capsys.readouterr().out.splitlines()
-    repair = f"wordarm repair {run_copy}"
+    repair = f"wordarm verify {run_copy} --repair"
     assert first.endswith(f"is damaged (it is missing); recompute generations 0 to 99 with: {repair}")
     assert second.endswith(f"does not fit its content); recompute generations 100 to 199 with: {repair}")
     assert third.endswith(f"champions.npz is damaged (it is missing); compute it again with: {repair}")
     assert last == f"{run_copy} is not whole: 3 files are missing or damaged; all else agrees, " + (
         "200 of 230 generations scored again"
     )
-    assert main(["repair", str(run_copy)]) == 0
+    assert main(["verify", str(run_copy), "--repair"]) == 0
     assert main(["verify", str(run_copy), "--sample=1"]) == 0
 
 
@@ -134,6 +134,7 @@ def test_a_run_that_another_process_holds_or_nobody_may_write_is_verified(run_co
         (["--generations=all"], "--generations all is no range of this run's"),
         (["--sample=0"], "--sample 0 must lie in [1, 230], the run's generations"),
         (["--sample=2", "--generations=3"], "exclude each other; give one of them"),
+        (["--sample=2", "--repair"], "leave --generations and --sample out"),
     ],
 )
 def test_bad_input_gets_one_sentence(flags, sentence, finished_run, capsys):

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from arm2d import Instruction, Readings
-from mujoco_port.acting.agreement import Agent, Outcome, jobs, outcomes
+from mujoco_port.acting.agreement import Candidate, Outcome, jobs, outcomes
 from mujoco_port.acting.tally import tally
 
 
 @pytest.fixture(scope="module")
 def listed(evolved_agent):
     words = (Instruction.parse("move red"), Instruction.parse("indicate red"))
-    return jobs([Agent("evolved", evolved_agent, words, Readings())], ("open",), 1, seed=4)
+    return jobs([Candidate("evolved", evolved_agent, words, Readings())], ("open",), 1, seed=4)
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +24,7 @@ def complete(listed, tmp_path_factory):
 
 def test_every_agent_and_loop_meets_the_same_starts(evolved_agent):
     words = (Instruction.parse("move red"),)
-    agents = [Agent(name, evolved_agent, words, Readings()) for name in ("one", "other")]
+    agents = [Candidate(name, evolved_agent, words, Readings()) for name in ("one", "other")]
     listed = jobs(agents, ("open", "geometric"), 2, seed=0)
     assert len(listed) == 2 * 2 * 4
     alphas = [job.trial.alpha[0] for job in listed]
@@ -53,7 +53,9 @@ def test_file_that_was_cut_short_is_continued_to_the_same_bytes(complete, listed
 
 def test_file_of_other_trials_is_refused_and_left_alone(complete, evolved_agent, tmp_path):
     _, path = complete
-    other = jobs([Agent("x", evolved_agent, (Instruction.parse("move red"),), Readings())], ("open",), 1, 5)
+    other = jobs(
+        [Candidate("x", evolved_agent, (Instruction.parse("move red"),), Readings())], ("open",), 1, 5
+    )
     before = path.read_bytes()
     with pytest.raises(
         ValueError, match="holds no outcomes of these trials with this version of the robot; ch"

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from arm2d import Instruction, Networks, Readings, Trials, draw_trials, encode, record_trial
+from arm2d.geometry import camera_offsets
 from arm2d.reference import sense
-from arm2d.view import camera_offsets
-from evolution.runs.sources import find_source
+from evolution.runs.sources import find_agent
 from mujoco_port.acting.camera import CameraEyes
 from mujoco_port.acting.closed_loop import felt
 from mujoco_port.acting.contacts import LEFT_SIDE, RIGHT_SIDE
@@ -113,7 +113,7 @@ def test_agents_order_takes_effect_one_control_step_after_what_it_answers_to(lab
 
 
 def test_shipped_generaliser_moves_red_in_the_robots_body_with_either_kind_of_eyes(lab):
-    champion = find_source("best-generaliser").genotype
+    champion = find_agent("best-generaliser").genotype
     record = _trial("move red", champion)
     assert record.success
     with CameraEyes(lab.body) as eyes:

@@ -3,7 +3,7 @@
 import pytest
 
 from evolution.cli import main
-from evolution.commands.agree import find_agent
+from evolution.commands.robot import candidate
 from mujoco_port.acting.agreement import fingerprint, jobs
 from mujoco_port.acting.lab import instruction_of
 
@@ -18,7 +18,7 @@ def test_port_with_physics_prints_both_verdicts_and_without_a_video_writes_nothi
 
 
 def test_agree_only_counts_what_a_complete_file_holds(tmp_path, capsys):
-    path, agent = tmp_path / "trials.csv", find_agent("best-generaliser")
+    path, agent = tmp_path / "trials.csv", candidate("best-generaliser")
     listed = jobs([agent], ("open",), 1, seed=0)
     rows = [
         f"{agent.name},open,{instruction_of(job.trial)},{job.area},{job.start},1,0,0.0,x" for job in listed
@@ -43,7 +43,7 @@ def test_agree_only_counts_what_a_complete_file_holds(tmp_path, capsys):
             ["port", "best-generaliser", "move red", "--physics", "--robot", "icub-erd"],
             "links that cannot act",
         ),
-        (["gallery", "best-generaliser", "--physics", "--robot", "icub-erd"], "links that cannot act"),
+        (["port", "best-generaliser", "all", "--physics", "--robot", "icub-erd"], "links that cannot act"),
         (["agree", "best-generaliser", "--starts", "0"], "--starts 0 makes no trials; give at least 1"),
         (["agree", "nobody"], "nobody"),
         (["agree", "best-generaliser", "--robot", "nao"], "unknown robot 'nao'; there are: icub, icub-erd"),

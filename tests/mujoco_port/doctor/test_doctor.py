@@ -1,6 +1,8 @@
 """`wordarm doctor` on machines that lack something; each is made of environment variables or links."""
 
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -9,9 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from mujoco_port.doctor.children import attempt
 from mujoco_port.doctor.findings import State
 from mujoco_port.doctor.machine import container_share
-from mujoco_port.doctor.packages import remedy
+from mujoco_port.doctor.packages import IMPORT, remedy
 
 DRAWING = """
 from mujoco_port.doctor.drawing import examine_drawing
@@ -177,6 +180,19 @@ def test_a_pinocchio_of_a_ros_workspace_is_found_and_named(tmp_path):
     assert f"{workspace} (ROS jazzy), whose packages come before ours" in line_of(lines, "PYTHONPATH")[0]
 
 
+def test_libraries_below_a_folder_with_a_blank_are_found(tmp_path):
+    package = tmp_path / "an environment" / "thing"
+    package.mkdir(parents=True)
+    rows = [line.split(maxsplit=5) for line in Path("/proc/self/maps").read_text().splitlines()]
+    some_library = next(row[5] for row in rows if re.search(r"/libm[.-][^/]*$", row[-1]))
+    library = package / "libthing.so"
+    shutil.copy(some_library, library)
+    (package / "__init__.py").write_text(f"import ctypes; ctypes.CDLL({str(library)!r})")
+    tried = attempt(IMPORT, "thing", environment={"PYTHONPATH": str(package.parent)})
+    assert tried.works, tried.reason
+    assert json.loads(tried.lines[1])[1] == [str(library)]
+
+
 def test_a_library_that_the_system_lacks_is_not_blamed_on_the_package():
     """As a bare Debian says it of the wheel of Pinocchio."""
     reason = "ImportError: libgomp.so.1: cannot open shared object file: No such file or directory"
@@ -196,6 +212,18 @@ for each in (cache(), encoder()):
     assert compiled[:2] == ["note", "compiled code"]
     assert "export NUMBA_CACHE_DIR=" in compiled[2]
     assert ffmpeg == ["missing", "ffmpeg", "unset IMAGEIO_FFMPEG_EXE"]
+
+
+def test_damaged_files_among_compiled_code_are_counted(tmp_path):
+    code = "from mujoco_port.doctor.machine import cache\nprint(cache().state.value, cache().text)"
+    told = run(["-c", code], NUMBA_CACHE_DIR=str(tmp_path)).stdout
+    assert told.startswith(f"ok {tmp_path}")
+    assert told.endswith(" (empty, the first command compiles for some 10 s)\n")
+    folder = next((tmp_path / "wordarm").iterdir())
+    (folder / "some.nbi").write_bytes(b"")
+    (folder / "some.1.nbc").write_bytes(b"no machine code")
+    told = run(["-c", code], NUMBA_CACHE_DIR=str(tmp_path)).stdout
+    assert told == f"ok {folder} (filled, 2 damaged, to be compiled again when needed)\n"
 
 
 @pytest.mark.parametrize(("text", "share"), [("max 100000\n", None), ("150000 100000\n", 1.5), ("", None)])

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from evolution.agents.recording import record_instruction
-from evolution.runs.sources import find_source
+from evolution.runs.sources import find_agent
 from mujoco_port.film.gallery import CELL_WIDTH, CLOCK, STRIP, VIEW_HEIGHT, cell_pictures
 from mujoco_port.film.physical_port import port_physical_gallery, start_of
 from mujoco_port.film.stage import Stage
@@ -14,7 +14,7 @@ from mujoco_port.film.take import physical_take
 
 @pytest.fixture(scope="module")
 def agent():
-    return find_source("best-generaliser")
+    return find_agent("best-generaliser")
 
 
 @pytest.fixture(scope="module")

@@ -1,9 +1,5 @@
 """Trials as videos and pictures of the robot; and what bad input gets."""
 
-import os
-import subprocess
-import sys
-
 import imageio.v3 as imageio
 import numpy as np
 import pytest
@@ -159,43 +155,3 @@ def test_bad_input_gets_one_sentence_and_leaves_nothing(call, error, message, sh
     with pytest.raises(error, match=message):
         call(shortest, tmp_path)
     assert not list(tmp_path.iterdir())
-
-
-def run_gl(code, **environment):
-    """Run Python with these variables; its (exit code, last line of output)."""
-    base = {name: value for name, value in os.environ.items() if name != "MUJOCO_GL"}
-    done = subprocess.run(
-        [sys.executable, "-c", code], env={**base, **environment}, capture_output=True, text=True, check=False
-    )
-    return done.returncode, (done.stdout + done.stderr).strip().splitlines()[-1]
-
-
-CHOOSE = "from mujoco_port.film.gl import choose_back_end; print(choose_back_end())"
-
-
-def test_a_back_end_that_works_is_chosen_by_itself():
-    assert run_gl(CHOOSE) in [(0, "egl"), (0, "osmesa")]
-
-
-def test_a_chosen_back_end_that_cannot_draw_is_named():
-    code, line = run_gl(CHOOSE, MUJOCO_GL="glfw", DISPLAY="")
-    assert code == 1
-    assert "MUJOCO_GL=glfw cannot draw without a screen here; unset MUJOCO_GL" in line
-
-
-def test_egl_without_a_driver_gives_way_or_says_what_to_install():
-    code, line = run_gl(CHOOSE, __EGL_VENDOR_LIBRARY_DIRS="/nowhere", __EGL_VENDOR_LIBRARY_FILENAMES="")
-    assert (code, line) == (0, "osmesa") or "run: apt-get install libegl1" in line
-
-
-def test_no_back_end_at_all_says_what_to_install():
-    broken = "import mujoco_port.film.gl as gl; gl.works = lambda name: False; gl.choose_back_end()"
-    code, line = run_gl(broken)
-    assert code == 1
-    assert "neither EGL nor OSMesa can draw here without a screen; run: apt-get install libegl1" in line
-
-
-def test_mujoco_imported_too_early_is_named():
-    code, line = run_gl(f"import mujoco; {CHOOSE}")
-    assert code == 1
-    assert "mujoco was imported before a back end was chosen; set MUJOCO_GL=egl" in line

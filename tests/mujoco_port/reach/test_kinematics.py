@@ -159,3 +159,21 @@ def test_target_out_of_reach_says_by_how_much(kinematics):
         OutOfReachError, match=r"target \(0.000, 3.000, 0.050\) m lies 2\.\d+ m beyond the reach"
     ):
         kinematics.settle(np.array([0.0, 3.0, 0.05]), 0.0)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_what_is_not_a_number_is_refused_wherever_it_stands(kinematics, robot, bad):
+    target, heading = hand_targets(robot.plane, 90.0, 45.0), float(hand_headings(robot.plane, 90.0, 45.0))
+    posture = kinematics.settle(target, heading)
+    nowhere, broken = target.copy(), posture.copy()
+    nowhere[1] = broken[2] = bad
+    with pytest.raises(ValueError, match=r"heading .* rad holds what is not a finite number"):
+        kinematics.settle(target, bad)
+    with pytest.raises(ValueError, match=r"heading .* rad holds what is not a finite number"):
+        kinematics.step(posture, target, bad)
+    with pytest.raises(ValueError, match=r"target \[.*\] m holds what is not a finite number"):
+        kinematics.settle(nowhere, heading)
+    with pytest.raises(ValueError, match=r"posture \[.*\] rad holds what is not a finite number"):
+        kinematics.step(broken, target, heading)
+    with pytest.raises(ValueError, match=r"heading .* rad holds what is not a finite number"):
+        kinematics.follow(np.array([target, target]), np.array([heading, bad]))

@@ -1,0 +1,207 @@
+"""The world as Gymnasium knows worlds (extra `gym`): learn the seven instructions, be asked all nine.
+
+    import arm2d.worlds.environment                                  # registers the name
+    world = gymnasium.make("wordarm/Instructions-v0")
+    worlds = gymnasium.make_vec("wordarm/Instructions-v0", num_envs=4096)
+
+An observation is the 18 inputs of spec section 4, an action two numbers from 0 to 2: turn one way, not
+at all, or the other way, for S1 and S2. The return of an episode is the trial's F1 + F2 + F3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, ClassVar, Final, Literal
+
+import gymnasium
+import numpy as np
+from gymnasium.spaces import Box, MultiDiscrete
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from arm2d.constants import N_INPUTS
+from arm2d.instructions import NON_EXPERIENCED, Condition, Instruction
+from arm2d.readings import Readings
+from arm2d.trials import Trials, draw_trials
+from arm2d.video import Panel
+from arm2d.worlds.vector_world import VectorWorld
+from arm2d.worlds.world import World
+
+NAME: Final = "wordarm/Instructions-v0"
+Asked = Literal["experienced", "held-out", "all"]
+Reward = Literal["end", "progress"]
+PICTURE_SIZE: Final = 480  # [pixels]
+
+
+def asked_instructions(condition: Condition, asked: Asked | Sequence[str]) -> tuple[Instruction, ...]:
+    """The instructions that trials are drawn from.
+
+    Args:
+        condition: Which nine there are.
+        asked: The seven experienced ones, the two held out, all nine, or instructions such as "touch red".
+
+    Raises:
+        ValueError: If it is none of these.
+    """
+    if isinstance(asked, str):
+        choices = {
+            "experienced": condition.experienced,
+            "held-out": NON_EXPERIENCED,
+            "all": condition.instructions,
+        }
+        if asked not in choices:
+            raise ValueError(
+                f"asked for {asked!r} instructions; there are {', '.join(choices)}, or a list of them"
+            )
+        return choices[asked]
+    return tuple(Instruction.parse(text) for text in asked)
+
+
+class _Source:
+    """What both environments draw trials from."""
+
+    def __init__(
+        self, condition: Condition | str, asked: Asked | Sequence[str], readings: Readings | None
+    ) -> None:
+        self.condition = Condition.parse(condition)
+        self.instructions = asked_instructions(self.condition, asked)
+        self.readings = readings or Readings()
+
+    def draw(self, n: int, rng: np.random.Generator) -> Trials:
+        """N trials, each of any of the instructions and from either start area."""
+        chosen = [self.instructions[i] for i in rng.integers(len(self.instructions), size=n)]
+        return draw_trials(chosen, 1, self.readings, rng)[2 * np.arange(n) + rng.integers(2, size=n)]
+
+
+class InstructionsEnv(gymnasium.Env):
+    """One trial an episode.
+
+    Args:
+        condition: "with-indicate" or "with-ignore".
+        instructions: What trials are drawn from: "experienced" (for training), "held-out", "all", or a list.
+        readings: How the paper is understood.
+        reward: "end", all of F1 + F2 + F3 with the last step, or "progress", what each step adds to it.
+        render_mode: "rgb_array" or none.
+    """
+
+    metadata: ClassVar = {"render_modes": ["rgb_array"], "render_fps": 10}  # type: ignore[misc]
+    observation_space = Box(0.0, 1.0, (N_INPUTS,), np.float64)
+    action_space = MultiDiscrete([3, 3])
+
+    def __init__(
+        self,
+        condition: Condition | str = Condition.WITH_INDICATE,
+        instructions: Asked | Sequence[str] = "experienced",
+        readings: Readings | None = None,
+        reward: Reward = "end",
+        render_mode: str | None = None,
+    ) -> None:
+        self.source = _Source(condition, instructions, readings)
+        self.reward, self.render_mode = reward, render_mode
+        self.world = World(self.source.readings)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.float64], dict[str, Any]]:
+        """Begin a trial; `options["instruction"]` chooses what is asked, such as "touch green"."""
+        super().reset(seed=seed)
+        start = self.source.draw(1, self.np_random)
+        self.instruction = start.instructions[0]
+        if options and "instruction" in options:
+            self.instruction = Instruction.parse(options["instruction"])
+        inputs = self.world.reset(self.instruction, start=start)
+        # What IGNORE is worth before anything has happened belongs to the first step's reward.
+        self._paid = 0.0
+        return inputs, {"instruction": str(self.instruction)}
+
+    def step(
+        self, action: NDArray[np.int64]
+    ) -> tuple[NDArray[np.float64], float, bool, bool, dict[str, Any]]:
+        """Turn both joints; terminated when the trial ends."""
+        inputs = self.world.step(np.asarray(action) - 1)
+        ended, now = self.world.ended, self._now()
+        info: dict[str, Any] = {"instruction": str(self.instruction)}
+        reward = now - self._paid if ended or self.reward == "progress" else 0.0
+        self._paid += reward
+        if ended:
+            info["success"] = bool(self.world.score().success[0, 0])
+        return inputs, reward, ended, False, info
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """The world as it is now, [480, 480, 3]."""
+        if self.render_mode is None:
+            return None
+        record = self.world.record()
+        panel = Panel(record, PICTURE_SIZE, PICTURE_SIZE, outcome=self.world.ended)
+        return panel.frame(record.steps)
+
+    def _now(self) -> float:
+        return float(self.world.score().fitness[0, 0])
+
+
+class InstructionsVectorEnv(VectorEnv):
+    """N trials side by side, in the compiled world; one that has ended begins anew with the next step.
+
+    Args:
+        num_envs: N.
+        condition: As `InstructionsEnv`; so are
+        instructions: what is asked,
+        readings: the world, and
+        reward: when it is paid.
+    """
+
+    metadata: ClassVar = {"autoreset_mode": AutoresetMode.NEXT_STEP}  # type: ignore[misc]
+    single_observation_space = InstructionsEnv.observation_space
+    single_action_space = InstructionsEnv.action_space
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        condition: Condition | str = Condition.WITH_INDICATE,
+        instructions: Asked | Sequence[str] = "experienced",
+        readings: Readings | None = None,
+        reward: Reward = "end",
+    ) -> None:
+        self.num_envs = num_envs
+        self.source, self.reward = _Source(condition, instructions, readings), reward
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.float64], dict[str, Any]]:
+        """Begin N trials."""
+        super().reset(seed=seed)
+        self.world = VectorWorld(self.source.draw(self.num_envs, self.np_random), self.source.readings)
+        self._over, self._paid = np.zeros(self.num_envs, np.bool_), np.zeros(self.num_envs)
+        return self.world.inputs.copy(), {}
+
+    def step(
+        self, actions: NDArray[np.int64]
+    ) -> tuple[
+        NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]
+    ]:
+        """Turn the joints of all trials; those that ended with the last step begin anew instead."""
+        began = np.flatnonzero(self._over)
+        self.world.step(np.asarray(actions) - 1)
+        if len(began):
+            self.world.restart(began, self.source.draw(len(began), self.np_random))
+            self._paid[began] = 0.0
+        self._over = self.world.ended
+        rewards, info = np.zeros(self.num_envs), {}
+        if self._over.any() or self.reward == "progress":
+            scores = self.world.scores()
+            paying = np.ones_like(self._over) if self.reward == "progress" else self._over.copy()
+            paying[began] = False
+            rewards[paying] = scores.fitness[0, paying] - self._paid[paying]
+            self._paid += rewards
+            info = {"success": scores.success[0] & self._over, "_success": self._over.copy()}
+        return self.world.inputs.copy(), rewards, self._over.copy(), np.zeros_like(self._over), info
+
+
+gymnasium.register(
+    NAME,
+    entry_point="arm2d.worlds.environment:InstructionsEnv",
+    vector_entry_point="arm2d.worlds.environment:InstructionsVectorEnv",
+)

@@ -1,0 +1,114 @@
+"""The world, one trial at a time, for a controller of one's own.
+
+world = arm2d.World()
+inputs = world.reset("touch green", seed=1)
+while not world.ended:
+inputs = world.step(controller(inputs))     # two of -1, 0 and 1: S1's turn and S2's
+print(world.score(), world.record())
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from arm2d import constants as c
+from arm2d.instructions import Instruction
+from arm2d.kernel import exchange
+from arm2d.readings import Readings
+from arm2d.running import record_of
+from arm2d.trials import TrialRecord, Trials, TrialScores, draw_trials
+from arm2d.worlds.vector_world import VectorWorld
+
+
+class World:
+    """One trial that takes turns of the joints and gives the 18 inputs, bit by bit the kernel's.
+
+    Args:
+        readings: How the paper is understood; the default readings if none are given.
+    """
+
+    def __init__(self, readings: Readings | None = None) -> None:
+        self.readings = readings or Readings()
+        self._vector: VectorWorld | None = None
+        self._rows: list[NDArray[np.float64]] = []
+        self._inputs: list[NDArray[np.float64]] = []
+
+    def reset(
+        self, instruction: Instruction | str, *, seed: int | None = None, start: Trials | None = None
+    ) -> NDArray[np.float64]:
+        """Begin a trial.
+
+        Args:
+            instruction: Such as "touch green"; what is heard, and scored.
+            seed: Draws start angle and objects, in either start area; a fresh one if none is given.
+            start: Where arm and objects stand, in place of a seed: a batch of one trial, whose own
+                instruction does not matter.
+
+        Returns:
+            The inputs [18], named by `INPUT_NAMES`.
+
+        Raises:
+            ValueError: If the instruction is none, or both or too many starts are given.
+        """
+        words = Instruction.parse(instruction) if isinstance(instruction, str) else instruction
+        if start is None:
+            rng = np.random.default_rng(seed)
+            start = draw_trials([words], 1, self.readings, rng)[int(rng.integers(2))]
+        elif seed is not None or len(start) != 1:
+            raise ValueError("give either a seed or a start of exactly one trial")
+        trial = Trials(np.array([words.action]), np.array([words.object]), start.alpha, start.discs)
+        self._vector, self._rows, self._inputs = VectorWorld(trial, self.readings), [], []
+        return self.inputs
+
+    @property
+    def inputs(self) -> NDArray[np.float64]:
+        """[18], what is sensed now."""
+        return self._current.inputs[0].copy()
+
+    @property
+    def ended(self) -> bool:
+        """Whether the trial is over."""
+        return bool(self._current.ended[0])
+
+    def step(self, turns: Sequence[float] | ArrayLike) -> NDArray[np.float64]:
+        """Turn S1 and S2 by -1, 0 or 1 each; the inputs [18] afterwards.
+
+        Raises:
+            ValueError: If the turns are anything else, or the trial is over.
+        """
+        if self.ended:
+            raise ValueError("this trial is over; begin another one with reset")
+        row, sensed = np.empty(exchange.RECORD_COLUMNS), self.inputs
+        self._current.step(np.asarray(turns)[np.newaxis], row)
+        self._rows.append(row)
+        self._inputs.append(sensed)
+        return self.inputs
+
+    def hear(self, instruction: Instruction | str) -> None:
+        """Change the words that are heard from the next step on; scored is what was asked for at first."""
+        self._current.hear(instruction)
+
+    def score(self) -> TrialScores:
+        """F1, F2, F3, success and steps, each [1, 1]; of a trial that goes on, as if it ended now."""
+        return self._current.scores()
+
+    def record(self) -> TrialRecord:
+        """All steps so far, as `record_trial` gives them; a controller's own states are unknown, hence 0."""
+        rows = np.array(self._rows).reshape(-1, exchange.RECORD_COLUMNS)
+        rows[:, exchange.RECORD_STATE : exchange.RECORD_STATE + c.N_INTER] = 0.0
+        return record_of(
+            self._current.trials,
+            self.readings,
+            rows,
+            np.array(self._inputs).reshape(-1, c.N_INPUTS),
+            self.score(),
+        )
+
+    @property
+    def _current(self) -> VectorWorld:
+        if self._vector is None:
+            raise ValueError("no trial has begun; call reset with an instruction, such as 'touch green'")
+        return self._vector

@@ -1,0 +1,157 @@
+"""`wordarm agree` and `wordarm workspace`: what a robot does over many trials, and over all of its table."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from tyro.conf import Positional, arg
+
+if TYPE_CHECKING:
+    from models.robots import Robot
+    from mujoco_port.acting.agreement import Candidate
+
+NOT_CERTIFIED = 1  # exit code
+
+
+@dataclass(frozen=True)
+class Agree:
+    """Let the robot carry out many trials of agents by itself, judge them in 3D, and count."""
+
+    sources: Annotated[Positional[tuple[str, ...]], arg(metavar="AGENT...", help_behavior_hint="(required)")]
+    """Run folders, genotype files or names of shipped champions; the best of each is meant."""
+
+    loops: Annotated[
+        tuple[Literal["open", "delayed", "geometric", "camera"], ...], arg(metavar="LOOP...")
+    ] = ("open",)
+    """open: the robot follows the 2D arm. delayed: the same, with an agent that is answered a step late, as
+    in closed loop. geometric, camera: the agent's inputs come from the robot."""
+
+    starts: int = 20
+    """Fresh starts of each instruction in each start area."""
+
+    seed: int = 0
+    """The starts follow from it."""
+
+    robot: str = "icub"
+    """Which humanoid; an unknown name lists those there are."""
+
+    processes: int | None = None
+    """How many trials at once; by default one for each core."""
+
+    output: Path = Path("agreement.csv")
+    """One row for each trial; a file that is not complete is continued."""
+
+    def run(self) -> int:
+        """Carry out what the file does not hold yet, and print the counts."""
+        if not self.sources:
+            raise ValueError("no agent is named; give run folders, genotype files or shipped champions")
+        for name, number in (("starts", self.starts), ("processes", self.processes)):
+            if number is not None and number < 1:
+                raise ValueError(f"--{name} {number} makes no trials; give at least 1")
+        from rich.console import Console
+        from rich.progress import track
+
+        from models.robots import get_robot
+        from mujoco_port.acting.agreement import jobs, outcomes
+        from mujoco_port.acting.tally import tables
+        from mujoco_port.film.gl import choose_back_end
+
+        get_robot(self.robot)
+        if "camera" in self.loops:
+            choose_back_end()
+        listed = jobs([candidate(name) for name in self.sources], self.loops, self.starts, self.seed)
+        processes = self.processes or len(os.sched_getaffinity(0))
+        console = Console()
+        counted = list(
+            track(
+                outcomes(listed, self.robot, self.output, processes),
+                "trials on the robot",
+                total=len(listed),
+                console=Console(stderr=True),
+            )
+        )
+        for table in tables(counted):
+            console.print(table)
+        print(self.output)
+        return 0
+
+
+def candidate(name: str) -> Candidate:
+    """Whom to try, by what the user calls it."""
+    from evolution.runs.sources import find_agent
+    from mujoco_port.acting.agreement import Candidate
+
+    agent = find_agent(name)
+    home = "" if agent.folder is None else f"{agent.condition}/{agent.folder.path.name}/"
+    return Candidate(home + agent.name, agent.genotype, agent.condition.instructions, agent.readings)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Workspace:
+    """Certify that a humanoid reaches all of the workspace and meets neither the table nor itself."""
+
+    robot: str = "icub"
+    """Which humanoid; an unknown name lists those there are."""
+
+    output: Path = Path()
+    """Folder for `workspace-ROBOT.npz`, `.png` and `.svg`."""
+
+    scale: float | None = None
+    """Another scale of the map than the robot's own [m/cm]."""
+
+    step_deg: float = 2.9
+    """Widest step of the grid [deg]."""
+
+    search: bool = False
+    """Search for the constants of the robot's record instead, from those it has, and print the record."""
+
+    evaluations: int = 3000
+    """Records that a search tries."""
+
+    seed: int = 0
+    """Of the search: the same seed gives the same record."""
+
+    def run(self) -> int:
+        """Certify, or search."""
+        from models.robots import get_robot
+
+        robot = get_robot(self.robot)
+        if self.scale is not None:
+            if not self.scale > 0.0:
+                raise ValueError(
+                    f"a scale of {self.scale:g} m/cm is no map; give a positive one, such as 0.002"
+                )
+            robot = replace(robot, plane=replace(robot.plane, scale=self.scale))
+        return self._search(robot) if self.search else self._certify(robot)
+
+    def _certify(self, robot: Robot) -> int:
+        from evolution.figures.page import save_figure
+        from evolution.runs.storage import make_folder, write_arrays
+        from mujoco_port.reach.certificate import certify
+        from mujoco_port.reach.certificate_figure import draw_certificate
+
+        if not self.step_deg > 0.0:
+            raise ValueError(
+                f"a step of {self.step_deg:g} degrees leads nowhere; give a positive one, at most 2.9"
+            )
+        make_folder(self.output)
+        certificate = certify(robot, step_deg=self.step_deg)
+        stem = self.output / f"workspace-{robot.name}"
+        path = stem.with_suffix(".npz")
+        write_arrays(path, certificate.arrays())
+        figures = save_figure(draw_certificate(certificate, robot), stem)
+        print("\n".join(certificate.summary()))
+        for fault in certificate.faults():
+            print(f"Not certified: {fault}.")
+        print(", ".join(str(each) for each in (path, *figures)))
+        return NOT_CERTIFIED if certificate.faults() else 0
+
+    def _search(self, robot: Robot) -> int:
+        from mujoco_port.reach.search import search_with_progress, written
+
+        best = search_with_progress(robot, evaluations=self.evaluations, seed=self.seed)
+        print(written(best))
+        return 0

@@ -1,0 +1,43 @@
+"""What the page is told of an agent: plain values, genes as the shortest decimals that keep their bits."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+from evolution.runs.sources import Agent
+from evolution.search.evaluation import evaluate
+
+# How the shipped agents are introduced; any other by where it comes from.
+INTRODUCTIONS: Final = {
+    "best-generaliser": (
+        "The generaliser",
+        "Practised seven instructions, and understands the other two as well in many tries.",
+    ),
+    "best-specialist": (
+        "The specialist",
+        "Carries out what it practised almost without fail, and the two other instructions never.",
+    ),
+    "with-ignore": (
+        "The one told to ignore",
+        "Its third action is IGNORE, not INDICATE.",
+    ),
+}
+
+
+def agent_for_page(source: Agent) -> dict[str, Any]:
+    """An agent with its introduction, tested as `wordarm evaluate` does."""
+    name, note = INTRODUCTIONS.get(source.name, (source.name.replace("-", " ").capitalize(), source.origin))
+    tested = evaluate(source.genotype, source.condition, source.readings)
+    return described(source, name, note, tested.successes[0].sum(axis=-1).tolist())
+
+
+def described(source: Agent, name: str, note: str, successes: list[int]) -> dict[str, Any]:
+    """An agent under a name, with a note, and how many of 80 tries of each instruction it carried out."""
+    return {
+        "name": name,
+        "note": note,
+        "condition": str(source.condition),
+        "readings": source.readings.to_mapping(),
+        "genotype": source.genotype.tolist(),
+        "successes": successes,
+    }

@@ -1,0 +1,205 @@
+"""Does INDICATE foster compositionality? The declared tests, the run as the unit (docs/declaration.md)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import Condition
+from evolution.agents.subtasks import SUBTASKS, AgentClass
+from evolution.report.columns import PlainTable
+from evolution.results.statistics import compare, mean_interval, proportions_interval, sign_flip_test
+from evolution.search.randomness import Purpose, generator
+from evolution.study.declared.beta_binomial import Counts, compare_counts
+from evolution.study.declared.regression import Estimate, estimate_columns
+from evolution.study.declared.rows import MeasuredRun
+from evolution.study.effects import holm
+from evolution.study.late_transitions import CLASSES, TESTS
+
+STRICT: Final = 0.01
+FULL: Final = str(AgentClass.FULL)
+PARTIAL: Final = str(AgentClass.PARTIAL)
+
+
+@dataclass(frozen=True)
+class Question:
+    """A count of agents within a run, and the agents it is a share of."""
+
+    name: str
+    count: str
+    among: str = "agents"
+
+    def counts(self, runs: Sequence[MeasuredRun]) -> Counts:
+        """(k, n) of every run that has agents of the kind."""
+        pairs = [(run.counts[self.count], run.counts[self.among]) for run in runs if run.counts[self.among]]
+        k, n = np.array(pairs, np.int64).reshape(-1, 2).T
+        return k, n
+
+    def shares(self, runs: Sequence[MeasuredRun]) -> NDArray[np.float64]:
+        """K / n of these runs."""
+        k, n = self.counts(runs)
+        return k / n
+
+
+# The test that decides comes first; the others are corrected together.
+QUESTIONS: Final = (
+    Question("fully compositional agents", FULL),
+    Question("partially compositional agents", PARTIAL),
+    *(Question(f"agents in category 10 of {name}", f"category 10 of {name}") for name in SUBTASKS[1:]),
+    Question("masters that understand MOVE Blue", "masters that understand MOVE Blue", "masters"),
+    Question("masters that understand TOUCH Green", "masters that understand TOUCH Green", "masters"),
+    Question("masters that understand both", FULL, "masters"),
+    *(
+        Question(f"{kind} agents that pass {test} transitions", f"{kind}, pass {test} transitions", str(kind))
+        for test in TESTS
+        for kind in CLASSES
+    ),
+)
+HAVING: Final = (FULL, PARTIAL)  # runs that have such agents are counted, too
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One test of the two conditions, With-Indicate less With-Ignore.
+
+    Attributes:
+        question: What was asked.
+        runs: Of each condition that could tell.
+        means: Of each condition: mean share over runs, or share of runs.
+        difference: Of these, with its 95 % interval.
+        p: Of the declared model,
+        permutation_p: and of permuted runs; NaN for shares of runs and for worlds.
+        corrected: p after Holm's correction; the first question's is its own.
+    """
+
+    question: str
+    runs: tuple[int, int]
+    means: tuple[float, float]
+    difference: Estimate
+    p: float
+    permutation_p: float = float("nan")
+    corrected: float = float("nan")
+
+
+def answers(runs: Sequence[MeasuredRun]) -> list[Answer]:
+    """All declared tests between the conditions; those that too few runs can tell are left out.
+
+    Raises:
+        ValueError: If there are fewer than two runs of a condition.
+    """
+    groups = [[run for run in runs if run.config.condition is condition] for condition in Condition]
+    if min(map(len, groups)) < 2:
+        told = " and ".join(str(len(group)) for group in groups)
+        raise ValueError(f"{told} runs of the conditions are measured; the tests need two of each")
+    first, *others = [
+        _by_counts(question, groups)
+        for question in QUESTIONS
+        if min(len(question.counts(group)[0]) for group in groups) >= 2
+    ]
+    others = [*(_by_runs(kind, groups) for kind in HAVING), *others]
+    corrected = [first.p, *holm(np.array([each.p for each in others]))]
+    return [replace(each, corrected=float(p)) for each, p in zip([first, *others], corrected, strict=True)]
+
+
+def world_differences(runs: Sequence[MeasuredRun], question: Question) -> NDArray[np.float64]:
+    """With-Indicate less With-Ignore in every world of the factorial study in which both can tell."""
+    by_condition = [
+        {
+            run.config.seed: run.counts[question.count] / run.counts[question.among]
+            for run in runs
+            if run.config.condition is condition and run.counts[question.among]
+        }
+        for condition in Condition
+    ]
+    first, second = by_condition
+    return np.array([first[seed] - second[seed] for seed in sorted(first.keys() & second.keys())])
+
+
+def averaged_over_worlds(runs: Sequence[MeasuredRun]) -> list[Answer]:
+    """The same questions over the worlds that both conditions met, as paired differences."""
+    found = []
+    for question in QUESTIONS:
+        differences = world_differences(runs, question)
+        if len(differences) < 2:
+            continue
+        interval = mean_interval(differences, generator(0, Purpose.STATISTICS))
+        means = [question.shares([r for r in runs if r.config.condition is c]).mean() for c in Condition]
+        n, p = len(differences), sign_flip_test(differences)
+        difference = Estimate(float(differences.mean()), *interval)
+        found.append(Answer(question.name, (n, n), (float(means[0]), float(means[1])), difference, p))
+    corrected = [found[0].p, *holm(np.array([each.p for each in found[1:]]))] if found else []
+    return [replace(each, corrected=float(p)) for each, p in zip(found, corrected, strict=True)]
+
+
+def verdict(under_default: Answer, over_worlds: Estimate) -> str:
+    """The declared sentence.
+
+    Args:
+        under_default: The first question's answer from the hundred runs.
+        over_worlds: The same difference averaged over the worlds of the factorial study.
+    """
+    own = under_default.difference
+    told = (
+        f"{100 * own.value:+.2g} points of all late agents [{100 * own.low:.2g}, {100 * own.high:.2g}], "
+        f"p = {under_default.p:.2g}, under the default; {100 * over_worlds.value:+.2g} "
+        f"[{100 * over_worlds.low:.2g}, {100 * over_worlds.high:.2g}] averaged over worlds"
+    )
+    same_sign = own.value * over_worlds.value > 0
+    if under_default.p < STRICT and same_sign:
+        return f"{'supported' if own.value > 0 else 'contradicted'}: {told}"
+    if own.value * over_worlds.value < 0 and not _holds_zero(own) and not _holds_zero(over_worlds):
+        return f"depends on the reading: {told}"
+    return f"undecided: {told}"
+
+
+def answer_table(sources: Iterable[tuple[str, Sequence[Answer]]]) -> PlainTable[tuple[str, Answer]]:
+    """One row per source of runs and test."""
+    return PlainTable(
+        {
+            "runs": lambda row: row[0],
+            "question": lambda row: row[1].question,
+            "With-Indicate runs": lambda row: row[1].runs[0],
+            "With-Ignore runs": lambda row: row[1].runs[1],
+            "With-Indicate": lambda row: f"{row[1].means[0]:.5f}",
+            "With-Ignore": lambda row: f"{row[1].means[1]:.5f}",
+            **estimate_columns("difference", "low", "high", of=lambda row: row[1].difference, form=".5f"),
+            "p": lambda row: f"{row[1].p:.2g}",
+            "p by permutation of runs": lambda row: _if_known(row[1].permutation_p),
+            "after Holm": lambda row: f"{row[1].corrected:.2g}",
+        },
+        [(source, answer) for source, found in sources for answer in found],
+    )
+
+
+def _if_known(p: float) -> str:
+    return "" if np.isnan(p) else f"{p:.2g}"
+
+
+def _by_counts(question: Question, groups: Sequence[Sequence[MeasuredRun]]) -> Answer:
+    """A question answered by the beta-binomial model, and by permutation of runs."""
+    first, second = (question.shares(group) for group in groups)
+    found = compare(first, second, generator(0, Purpose.STATISTICS))
+    tested = compare_counts(*(question.counts(group) for group in groups))
+    return Answer(
+        question.name, (len(first), len(second)), found.means,
+        Estimate(found.difference, *found.interval), tested.p, found.permutation_p,
+    )  # fmt: skip
+
+
+def _by_runs(kind: str, groups: Sequence[Sequence[MeasuredRun]]) -> Answer:
+    """How many runs have agents of a class."""
+    from scipy.stats import fisher_exact
+
+    counted = [(sum(run.counts[kind] > 0 for run in group), len(group)) for group in groups]
+    (k1, n1), (k2, n2) = counted
+    p: Any = fisher_exact([[k1, n1 - k1], [k2, n2 - k2]])[1]
+    difference = Estimate((k1 / n1) - (k2 / n2), *proportions_interval(*counted))
+    return Answer(f"runs with {kind} agents", (n1, n2), (k1 / n1, k2 / n2), difference, float(p))
+
+
+def _holds_zero(each: Estimate) -> bool:
+    return each.low <= 0 <= each.high

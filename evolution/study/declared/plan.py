@@ -1,0 +1,155 @@
+"""The runs of a declared part, each measured as soon as it is evolved, its row kept in one file.
+
+Runs whose row is there already are not evolved again, on whatever machine they were.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Final
+
+from evolution.child import reference
+from evolution.experiments.jobs import Failure
+from evolution.experiments.plan import LOGS, TESTING, Plan
+from evolution.experiments.plan_runner import run_plan_shown
+from evolution.experiments.standing import Standing
+from evolution.experiments.variants import Variant
+from evolution.experiments.workers import Ended, Job
+from evolution.runs.folder import RunFolder
+from evolution.runs.interrupt import StopRequest
+from evolution.runs.lock import locked
+from evolution.runs.storage import make_folder
+from evolution.search.config import RunConfig
+from evolution.study.declared.parts import DeclaredPart
+from evolution.study.declared.rows import MeasuredRun, measured_run, post_evaluated_run, read_rows, write_rows
+from evolution.study.late_transitions import are_tested, passed_transitions
+from evolution.study.measures import is_measured, measure
+
+MEASURING: Final = "measuring"
+
+
+@dataclass(frozen=True)
+class MeasuredPlan(Plan):
+    """A plan that measures every run as soon as it is evolved, or, with `post_evaluate`, tests it whole.
+
+    Attributes:
+        known: Runs that have a measured row, of which no folder is needed.
+    """
+
+    known: Mapping[RunConfig, MeasuredRun] = field(default_factory=dict)
+
+    @property
+    def last_stage(self) -> str:
+        """What ends a run."""
+        return TESTING if self.post_evaluate else MEASURING
+
+    def standing(self, config: RunConfig) -> Standing:
+        """How far a run has come; it is done when it is measured."""
+        if row := self.known.get(config):
+            generations, name = config.settings.generations, self.variant_folder(config)
+            return Standing(
+                config, generations, row.plateau, finished=True, evolved=True, done=True, variant=name
+            )
+        standing = super().standing(config)
+        measured = self.post_evaluate or has_measures(self.path(config))
+        return replace(standing, done=standing.done and measured)
+
+    def row(self, path: Path) -> MeasuredRun:
+        """The row of a run that is done; raises ValueError if it is not."""
+        return (post_evaluated_run if self.post_evaluate else measured_run)(RunFolder.open(path))
+
+    def _stages(self, standing: Standing) -> list[Job]:
+        if self.post_evaluate:
+            return super()._stages(standing)
+        path = self.path(standing.config)
+        log = self.folder / LOGS / "measures.log"
+        which = {"folder": str(path)}
+        measuring = Job(standing.name, MEASURING, reference(measure_with_transitions), which, path, log)
+        return [measuring] if standing.evolved else [*super()._stages(standing), measuring]
+
+
+def measure_with_transitions(folder: str) -> int:
+    """Measure a run and test its late agents with words that change, in a process of its own."""
+    run = RunFolder.open(Path(folder))
+    with locked(run.path):
+        passed_transitions(run, measure(run))
+    return 0
+
+
+def has_measures(path: Path) -> bool:
+    """Whether everything that has to be simulated for a run's row is there."""
+    return is_measured(path) and are_tested(path)
+
+
+@dataclass(frozen=True)
+class RowFile:
+    """The file of a part's measured rows, which is both what is known and what is found.
+
+    Attributes:
+        path: Its place.
+        part: Whose runs they are.
+    """
+
+    path: Path
+    part: DeclaredPart
+
+    def read(self) -> dict[RunConfig, MeasuredRun]:
+        """Its runs, in the order of the part.
+
+        Raises:
+            ValueError: If it cannot be understood, or has a run of another study.
+        """
+        found = {run.config: run for run in read_rows(self.path)}
+        if strange := next((each for each in found if each not in set(self.part.configs)), None):
+            raise ValueError(
+                f"{self.path} has a row of {strange.condition}, seed {strange.seed}, that is no run of the "
+                f"part {self.part.name} with these readings and generations; give another file of rows"
+            )
+        return {config: found[config] for config in self.part.configs if config in found}
+
+    def add(self, runs: Iterable[MeasuredRun]) -> None:
+        """Add runs; raises OSError if it cannot be written."""
+        found = self.read() | {run.config: run for run in runs}
+        write_rows([found[config] for config in self.part.configs if config in found], self.path)
+
+    def plan(self, folder: Path) -> MeasuredPlan:
+        """The runs of the part, with those known that have a row."""
+        settings = {config.settings for config in self.part.configs}
+        names = {Variant(world, own): name for world, name in self.part.names.items() for own in settings}
+        return MeasuredPlan(folder, self.part.configs, self.part.whole, names, self.read())
+
+    def collect(self, plan: MeasuredPlan) -> None:
+        """Add the rows of all runs of a plan that are measured by now."""
+        unknown = (config for config in plan.configs if config not in plan.known)
+        self.add(plan.row(plan.path(config)) for config in unknown if plan.standing(config).done)
+
+
+def carry_out(
+    rows: RowFile, folder: Path, at_once: int, stop: StopRequest, known: Iterable[MeasuredRun] = ()
+) -> tuple[Failure, ...]:
+    """Evolve and measure all runs that have no row yet; the jobs that were given up.
+
+    Args:
+        rows: Gets a row for every run, as soon as it is measured.
+        folder: For the runs.
+        at_once: Processes at a time.
+        stop: An open one; what is at work is then left in good order.
+        known: Runs measured elsewhere, which get their rows first.
+
+    Raises:
+        ValueError: If the file of rows cannot be understood, or a folder holds another run.
+        OSError: If nothing can be written.
+    """
+    make_folder(folder)
+    with locked(folder):
+        rows.add(known)
+        plan = rows.plan(folder)
+        rows.collect(plan)
+
+        def keep(ended: Ended) -> None:
+            if ended.exit_code == 0 and ended.job.stage == plan.last_stage:
+                rows.add([plan.row(ended.job.folder)])
+
+        return run_plan_shown(plan, at_once, stop, on_end=keep)

@@ -1,0 +1,172 @@
+"""The declared parts by name: which runs each has, and what is written of those that are measured."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Final
+
+from arm2d import Condition, Readings
+from evolution.report.columns import PlainTable
+from evolution.runs.storage import make_folder, write_atomically
+from evolution.study.declared.claim import answer_table, answers, averaged_over_worlds, verdict
+from evolution.study.declared.confirmation import (
+    DEFAULT,
+    LESS_ONE_SEEDS,
+    PRINTED,
+    PRINTED_WORLD,
+    WHOLE_LENGTH,
+    departures,
+    fresh,
+    fresh_worlds,
+    hundred,
+    less_one,
+    runs_of_worlds,
+)
+from evolution.study.declared.nearest import spreads
+from evolution.study.declared.parts import GENERATIONS, DeclaredPart, factorial
+from evolution.study.declared.plan import RowFile
+from evolution.study.declared.results import chosen_worlds, regressions, write_factorial
+from evolution.study.declared.rows import MeasuredRun, write_rows
+from evolution.study.declared.verdict import Verdict, decide, duel_table, less_one_table, world_table
+
+PARTS: Final = ("factorial", "fresh", "less-one", "hundred")
+ROWS: Final = "rows.csv"
+Written = tuple[list[Path], list[str]]  # files, and sentences
+
+
+class DeclaredStudy:
+    """The declared parts, each in a folder of one folder."""
+
+    def __init__(self, folder: Path, *, generations: int | None = None, early: bool = False) -> None:
+        """Nothing is read yet.
+
+        Args:
+            folder: Of the study.
+            generations: Of every run, by default what each part declares.
+            early: Go on from parts that are not measured to the end, as if they were.
+        """
+        self.folder = folder
+        self._short = generations or GENERATIONS
+        self._whole = generations or WHOLE_LENGTH
+        self._early = early
+
+    def part(self, name: str) -> DeclaredPart:
+        """A part by name.
+
+        Raises:
+            ValueError: If what it is chosen from is not measured yet.
+        """
+        if name == "fresh":
+            return fresh(self._chosen, self._whole)
+        if name == "less-one":
+            return less_one(self._decided[1], self._whole)
+        return hundred(Readings(), self._whole) if name == "hundred" else factorial(self._short)
+
+    def rows(self, part: DeclaredPart) -> RowFile:
+        """The file of a part's rows."""
+        return RowFile(self.folder / part.name / ROWS, part)
+
+    def write(self, part: DeclaredPart, runs: Sequence[MeasuredRun], results: Path) -> Written:
+        """Write what these runs of a part say by now.
+
+        Raises:
+            ValueError: If what it is compared with is not measured yet.
+            OSError: If a file cannot be written.
+        """
+        if part.name == "factorial":
+            return write_factorial(runs, results)
+        make_folder(results)
+        rows = results / f"{part.name}.csv"
+        write_rows(runs, rows)
+        writer = {
+            "fresh": self._write_fresh,
+            "less-one": self._write_less_one,
+            "hundred": self._write_hundred,
+        }
+        paths, notes = writer[part.name](runs, results)
+        return [rows, *paths], notes
+
+    def _write_fresh(self, runs: Sequence[MeasuredRun], results: Path) -> Written:
+        worlds = fresh_worlds(self._chosen)
+        own = runs_of_worlds(runs, worlds)
+        found = decide(own, spreads(self._factorial))
+        tables = {"fresh-worlds": world_table(own, worlds, found), "fresh-duels": duel_table(found)}
+        return _write(tables.items(), results), [found.sentence]
+
+    def _write_less_one(self, runs: Sequence[MeasuredRun], results: Path) -> Written:
+        winner = self._decided[1]
+        with_all = [run for run in self._runs_of("fresh") if run.config.readings == winner]
+        without = {
+            factor: [run for run in runs if run.config.readings == world]
+            for factor, world in departures(winner).items()
+        }
+        notes = [
+            f"without {factor}: {len(own)} of {len(LESS_ONE_SEEDS)} runs are measured"
+            for factor, own in without.items()
+            if len(own) < len(LESS_ONE_SEEDS)
+        ]
+        told = {factor: own for factor, own in without.items() if own}
+        return _write([("less-one-effects", less_one_table(_indicate(with_all), told))], results), notes
+
+    def _write_hundred(self, runs: Sequence[MeasuredRun], results: Path) -> Written:
+        default = [run for run in runs if run.config.readings == Readings()]
+        printed = [run for run in runs if run.config.readings == PRINTED_WORLD]
+        over_worlds = averaged_over_worlds(self._factorial)
+        own = answers(default)
+        sources = [(DEFAULT, own), ("factorial worlds", over_worlds)]
+        notes = []
+        try:
+            sources.insert(1, (PRINTED, answers(printed)))
+        except ValueError as error:
+            notes.append(f"printed readings: {error}")
+        table = [("claim", answer_table(sources))]
+        said = f"INDICATE fosters compositionality: {verdict(own[0], over_worlds[0].difference)}"
+        return _write(table, results), [*notes, said]
+
+    @cached_property
+    def _factorial(self) -> list[MeasuredRun]:
+        return self._runs_of("factorial")
+
+    @cached_property
+    def _chosen(self) -> list[Readings]:
+        """The worlds that the rule chooses, the nearest first."""
+        runs = self._factorial
+        return [world.readings for world in chosen_worlds(regressions(runs), runs)]
+
+    @cached_property
+    def _decided(self) -> tuple[Verdict, Readings]:
+        """What the confirmation says, and the winner's readings."""
+        worlds = fresh_worlds(self._chosen)
+        found = decide(runs_of_worlds(self._runs_of("fresh"), worlds), spreads(self._factorial))
+        return found, worlds[found.winner]
+
+    def _runs_of(self, name: str) -> list[MeasuredRun]:
+        """The runs of a part that others stand on.
+
+        Raises:
+            ValueError: If it is not measured to the end, unless that is asked for.
+        """
+        part = self.part(name)
+        rows = self.rows(part)
+        found = rows.read()
+        if len(found) < len(part.configs) and not (self._early and found):
+            raise ValueError(
+                f"{len(found)} of {len(part.configs)} runs of the part {name} have a row in {rows.path}; go "
+                f"on with: wordarm study readings --part {name}, or take those for all with --early"
+            )
+        return list(found.values())
+
+
+def _indicate(runs: Iterable[MeasuredRun]) -> list[MeasuredRun]:
+    return [run for run in runs if run.config.condition is Condition.WITH_INDICATE]
+
+
+def _write(tables: Iterable[tuple[str, PlainTable[Any]]], folder: Path) -> list[Path]:
+    """Write tables; their paths."""
+    paths = []
+    for name, table in tables:
+        paths.append(folder / f"{name}.csv")
+        write_atomically(paths[-1], table.to_csv().encode())
+    return paths

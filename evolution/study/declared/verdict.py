@@ -1,0 +1,239 @@
+"""Who wins the confirmation, whether it beats the printed readings, and which of its departures it needs.
+
+Rules as declared in docs/declaration.md. Axes: R runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import Condition, Readings
+from evolution.experiments.variants import variant_name
+from evolution.report.columns import PlainTable
+from evolution.results.statistics import compare, mean_interval, sign_flip_test
+from evolution.search.randomness import Purpose, generator
+from evolution.study.declared.confirmation import CANDIDATES, PRINTED, RunsOfWorlds
+from evolution.study.declared.nearest import distance
+from evolution.study.declared.outcomes import FIGURES, OUTCOMES, PLATEAU, TOP_SHARES, Outcome
+from evolution.study.declared.regression import Estimate, estimate_columns
+from evolution.study.declared.rows import MeasuredRun
+from evolution.study.effects import holm
+
+STRICT: Final = 0.01
+# A world beats another by these.
+JUDGED: Final = (PLATEAU, TOP_SHARES[0])
+
+Spreads = Mapping[Condition, NDArray[np.float64]]
+
+
+@dataclass(frozen=True)
+class Duel:
+    """A world against the printed readings, by one figure in one condition.
+
+    Attributes:
+        world: Its name.
+        condition: Of the runs.
+        outcome: The figure.
+        difference: World less printed, with a bootstrap interval over runs.
+        p: By permutation of runs,
+        corrected: and after Holm's correction over all duels.
+    """
+
+    world: str
+    condition: Condition
+    outcome: Outcome
+    difference: Estimate
+    p: float
+    corrected: float
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What the confirmation says.
+
+    Attributes:
+        distances: Of every world from the paper, by name.
+        winner: The nearest of those that may become the default.
+        duels: All of them.
+        beats: Names of the worlds that beat the printed readings.
+    """
+
+    distances: Mapping[str, float]
+    winner: str
+    duels: tuple[Duel, ...]
+    beats: tuple[str, ...]
+
+    @property
+    def sentence(self) -> str:
+        """The verdict in words."""
+        if self.winner in self.beats:
+            return f"the winner, {self.winner}, beats the printed readings: it is to be the default"
+        return f"the winner, {self.winner}, does not beat the printed readings: the default stays"
+
+
+def decide(runs: RunsOfWorlds, spreads: Spreads) -> Verdict:
+    """The winner and who beats the printed readings.
+
+    Raises:
+        ValueError: If a world has fewer than two runs of a condition.
+    """
+    for name, own in runs.items():
+        for condition, found in own.items():
+            if len(found) < 2:
+                raise ValueError(
+                    f"{len(found)} runs of {name} {condition} are measured; the verdict needs two"
+                )
+    distances = {name: _distance(own, spreads) for name, own in runs.items()}
+    candidates = [name for name in CANDIDATES if name in runs]
+    duels = _duels(runs, candidates)
+    beats = [
+        name
+        for name in candidates
+        if distances[name] < distances[PRINTED]
+        and all(each.corrected < STRICT and each.difference.value > 0 for each in duels if each.world == name)
+    ]
+    return Verdict(distances, min(candidates, key=distances.__getitem__), tuple(duels), tuple(beats))
+
+
+def world_table(
+    runs: RunsOfWorlds, worlds: Mapping[str, Readings], verdict: Verdict
+) -> PlainTable[_RunsOfWorld]:
+    """One row per world and condition: its figures with 95 % bootstrap intervals over runs."""
+    figures = (
+        estimate_columns(
+            outcome.name,
+            f"{outcome.name} low",
+            f"{outcome.name} high",
+            of=lambda row, outcome=outcome: _mean(outcome.values(row.runs)),
+        )
+        for outcome in OUTCOMES
+    )
+    return PlainTable(
+        {
+            "world": lambda row: row.world,
+            "readings": lambda row: variant_name(worlds[row.world]),
+            "condition": lambda row: str(row.condition),
+            "runs": lambda row: len(row.runs),
+            "at 18/7": lambda row: sum(run.at_limit for run in row.runs),
+            "category 5 of I": lambda row: (
+                f"{np.mean([run.share('category 5 of I') for run in row.runs]):.4f}"
+            ),
+            "runs with fully compositional agents": lambda row: sum(
+                run.counts["fully compositional"] > 0 for run in row.runs
+            ),
+            **{name: column for columns in figures for name, column in columns.items()},
+            "distance": lambda row: f"{verdict.distances[row.world]:.4f}",
+            "beats printed": lambda row: "yes" if row.world in verdict.beats else "no",
+        },
+        [
+            _RunsOfWorld(name, condition, found)
+            for name, own in runs.items()
+            for condition, found in own.items()
+        ],
+    )
+
+
+def duel_table(verdict: Verdict) -> PlainTable[Duel]:
+    """One row per duel."""
+    return PlainTable(
+        {
+            "world": lambda duel: duel.world,
+            "condition": lambda duel: str(duel.condition),
+            "outcome": lambda duel: duel.outcome.name,
+            **estimate_columns("difference", "low", "high", of=lambda duel: duel.difference),
+            "p": lambda duel: f"{duel.p:.2g}",
+            "after Holm": lambda duel: f"{duel.corrected:.2g}",
+        },
+        verdict.duels,
+    )
+
+
+def less_one_table(
+    winner: Sequence[MeasuredRun], without: Mapping[str, Sequence[MeasuredRun]]
+) -> PlainTable[_Cost]:
+    """One row per departure and figure: what going back to the default costs, by seed.
+
+    Args:
+        winner: Its With-Indicate runs.
+        without: The runs of the winner less one, by the factor that went back; a seed of the winner's each.
+    """
+    pairs = [(factor, outcome) for factor in without for outcome in JUDGED]
+    differences = [_paired(without[factor], winner, outcome) for factor, outcome in pairs]
+    p = np.array([sign_flip_test(difference) for difference in differences])
+    costs = [
+        _Cost(factor, outcome, len(difference), _mean(difference), float(own), float(corrected))
+        for (factor, outcome), difference, own, corrected in zip(pairs, differences, p, holm(p), strict=True)
+    ]
+    return PlainTable(
+        {
+            "factor": lambda cost: cost.factor,
+            "outcome": lambda cost: cost.outcome.name,
+            "seeds": lambda cost: cost.seeds,
+            **estimate_columns("difference", "low", "high", of=lambda cost: cost.difference),
+            "p": lambda cost: f"{cost.p:.2g}",
+            "after Holm": lambda cost: f"{cost.corrected:.2g}",
+        },
+        costs,
+    )
+
+
+@dataclass(frozen=True)
+class _RunsOfWorld:
+    """A row of the table of worlds."""
+
+    world: str
+    condition: Condition
+    runs: Sequence[MeasuredRun]
+
+
+@dataclass(frozen=True)
+class _Cost:
+    """A row of the table of departures: what going back with one factor costs in one figure."""
+
+    factor: str
+    outcome: Outcome
+    seeds: int
+    difference: Estimate
+    p: float
+    corrected: float
+
+
+def _distance(own: Mapping[Condition, Sequence[MeasuredRun]], spreads: Spreads) -> float:
+    """Of measured means."""
+    means = {c: np.array([[f.values(runs).mean() for f in FIGURES]]) for c, runs in own.items()}
+    return float(distance(means, spreads)[0])
+
+
+def _duels(runs: RunsOfWorlds, candidates: Sequence[str]) -> list[Duel]:
+    """Every candidate against the printed readings."""
+    what = [
+        (name, condition, outcome) for name in candidates for condition in Condition for outcome in JUDGED
+    ]
+    found = [
+        compare(o.values(runs[name][c]), o.values(runs[PRINTED][c]), generator(0, Purpose.STATISTICS))
+        for name, c, o in what
+    ]
+    corrected = holm(np.array([each.permutation_p for each in found]))
+    return [
+        Duel(*which, Estimate(each.difference, *each.interval), each.permutation_p, float(p))
+        for which, each, p in zip(what, found, corrected, strict=True)
+    ]
+
+
+def _paired(
+    ours: Sequence[MeasuredRun], theirs: Sequence[MeasuredRun], outcome: Outcome
+) -> NDArray[np.float64]:
+    """Ours less theirs, for every seed that both have."""
+    other = {run.config.seed: outcome.of_run(run) for run in theirs}
+    return np.array(
+        [outcome.of_run(run) - other[run.config.seed] for run in ours if run.config.seed in other]
+    )
+
+
+def _mean(values: NDArray[np.float64]) -> Estimate:
+    return Estimate(float(values.mean()), *mean_interval(values, generator(0, Purpose.STATISTICS)))

@@ -1,0 +1,11 @@
+from .build import build_model as build_model
+from .inertias import UnsoundInertia as UnsoundInertia
+from .inertias import unsound_inertias as unsound_inertias
+from .physics import NoPhysicsError as NoPhysicsError
+from .physics import build_physics_model as build_physics_model
+from .robots import ROBOTS as ROBOTS
+from .robots import Robot as Robot
+from .robots import UnknownRobotError as UnknownRobotError
+from .robots import get_robot as get_robot
+from .urdf import RobotNotInstalledError as RobotNotInstalledError
+from .urdf import find_urdf as find_urdf

@@ -1,0 +1,122 @@
+"""The world as Gymnasium knows worlds: its checker passes, returns are fitness, both kinds agree."""
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+from arm2d import NON_EXPERIENCED, Condition, Instruction, Readings
+from arm2d.worlds.environment import NAME, asked_instructions
+
+
+@pytest.mark.parametrize("reward", ["end", "progress"])
+def test_gymnasiums_own_checker_finds_nothing(reward):
+    world = gymnasium.make(NAME, reward=reward, render_mode="rgb_array", disable_env_checker=True)
+    check_env(world.unwrapped)
+
+
+@pytest.mark.parametrize("reward", ["end", "progress"])
+@pytest.mark.parametrize("condition", list(Condition))
+def test_the_return_of_an_episode_is_the_trials_fitness(condition, reward):
+    world = gymnasium.make(NAME, condition=condition, reward=reward)
+    world.action_space.seed(1)
+    for seed in range(12):
+        world.reset(seed=seed)
+        total, ended = 0.0, False
+        while not ended:
+            _, paid, ended, truncated, info = world.step(world.action_space.sample())
+            total += paid
+            assert not truncated
+        score = world.unwrapped.world.score()
+        assert total == pytest.approx(float(score.fitness[0, 0]), abs=1e-12)
+        assert info["success"] == bool(score.success[0, 0])
+
+
+@pytest.mark.parametrize("reward", ["end", "progress"])
+def test_a_vector_of_worlds_pays_what_single_worlds_pay(reward):
+    """Episodes of the vector, each done again by itself from the start that the vector drew."""
+    n, rng = 50, np.random.default_rng(4)
+    worlds = gymnasium.make_vec(NAME, num_envs=n, reward=reward)
+    worlds.reset(seed=3)
+    vector = worlds.unwrapped.world
+    trials, single = vector.trials, gymnasium.make(NAME, reward=reward).unwrapped
+    totals, over, actions = np.zeros(n), np.zeros(n, bool), []
+    while not over.all():
+        actions.append(rng.integers(0, 3, (n, 2)))
+        _, rewards, ended, _, _ = worlds.step(actions[-1])
+        totals += np.where(over, 0.0, rewards)
+        over |= ended
+    for t in range(n):
+        single.reset(seed=0)
+        single.world.reset(trials.instructions[t], start=trials[t])
+        single._paid, total, ended = 0.0, 0.0, False
+        for action in actions:
+            _, paid, ended, _, _ = single.step(action[t])
+            total += paid
+            if ended:
+                break
+        assert ended
+        assert totals[t] == pytest.approx(total, abs=1e-12)
+
+
+def test_a_trial_that_ended_begins_anew_with_the_next_step():
+    worlds = gymnasium.make_vec(NAME, num_envs=40, reward="progress")
+    observations, _ = worlds.reset(seed=5)
+    ended = np.zeros(40, bool)
+    seen = 0
+    for _ in range(600):
+        before = ended
+        observations, rewards, ended, _, _ = worlds.step(np.full((40, 2), 1))
+        assert not ended[before].any()
+        assert np.all(rewards[before] == 0.0)
+        assert np.all(observations[before, 11] == 1.0)  # beta is 90 degrees again
+        seen += before.sum()
+    assert seen >= 80
+
+
+def test_training_never_meets_what_is_held_out():
+    for condition in Condition:
+        assert not set(asked_instructions(condition, "experienced")) & set(NON_EXPERIENCED)
+        assert set(asked_instructions(condition, "held-out")) == set(NON_EXPERIENCED)
+        assert asked_instructions(condition, "all") == condition.instructions
+    worlds = gymnasium.make_vec(NAME, num_envs=2000)
+    worlds.reset(seed=1)
+    met = set(worlds.unwrapped.world.trials.instructions)
+    assert met == set(Condition.WITH_INDICATE.experienced)
+
+
+def test_the_same_seed_gives_the_same_episodes():
+    def episode(seed):
+        worlds = gymnasium.make_vec(NAME, num_envs=30)
+        observations, _ = worlds.reset(seed=seed)
+        rng = np.random.default_rng(1)
+        return np.array([observations, *(worlds.step(rng.integers(0, 3, (30, 2)))[0] for _ in range(300))])
+
+    assert np.array_equal(episode(7), episode(7))
+    assert not np.array_equal(episode(7), episode(8))
+
+
+def test_an_instruction_can_be_asked_for_and_is_drawn_in_the_picture():
+    world = gymnasium.make(NAME, render_mode="rgb_array")
+    inputs, info = world.reset(seed=1, options={"instruction": "touch green"})
+    assert info["instruction"] == "TOUCH Green"
+    assert inputs[12:].tolist() == [1, 0, 1, 1, 0, 1]
+    first = world.render()
+    assert first.shape == (480, 480, 3)
+    for _ in range(10):
+        world.step([2, 1])
+    assert (world.render() != first).any()
+
+
+def test_what_cannot_be_asked_is_refused_with_what_can():
+    with pytest.raises(ValueError, match="experienced, held-out, all"):
+        asked_instructions(Condition.WITH_INDICATE, "some")
+    with pytest.raises(ValueError, match="unknown object word"):
+        asked_instructions(Condition.WITH_INDICATE, ["touch yellow"])
+    assert asked_instructions(Condition.WITH_INDICATE, ["move red"]) == (Instruction.parse("move red"),)
+
+
+def test_readings_are_those_asked_for():
+    world = gymnasium.make(NAME, readings=Readings(object_radius=8.0))
+    world.reset(seed=1)
+    assert world.unwrapped.world.record().readings.object_radius == 8.0

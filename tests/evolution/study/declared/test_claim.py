@@ -1,0 +1,201 @@
+"""The tests of the claim on made-up counts: what is there is found, what is not is not, runs are the unit."""
+
+import csv
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.stats import betabinom
+
+from arm2d import Condition, Readings
+from evolution.cli import main
+from evolution.experiments.plan import TESTING
+from evolution.results.statistics import proportions_interval
+from evolution.runs.interrupt import StopRequest
+from evolution.study.declared.beta_binomial import compare_counts
+from evolution.study.declared.claim import (
+    FULL,
+    QUESTIONS,
+    answers,
+    averaged_over_worlds,
+    verdict,
+    world_differences,
+)
+from evolution.study.declared.confirmation import hundred
+from evolution.study.declared.parts import DeclaredPart
+from evolution.study.declared.plan import RowFile, carry_out
+from evolution.study.declared.regression import Estimate
+from evolution.study.declared.rows import write_rows
+from tests.evolution.study.declared.synthetic import CONFIGS, made_up, runs_with_effects
+
+AGENTS = 10_000
+
+
+def counts(mean, precision, runs, rng, n=AGENTS):
+    """Counts of runs whose shares follow a beta distribution."""
+    k = rng.binomial(n, rng.beta(mean * precision, (1 - mean) * precision, runs))
+    return k, np.full(runs, n)
+
+
+def runs_of(default, shares, rng, seeds=9):
+    """So many runs of each condition with these mean shares of fully compositional agents."""
+    made = []
+    for config in hundred(default).configs:
+        if config.readings == default and config.seed <= seeds:
+            k = int(counts(shares[config.condition], 0.5, 1, rng)[0][0])
+            known = dict.fromkeys(("masters", "masters that understand MOVE Blue"), max(k, 5000))
+            made.append(made_up(config, agents=AGENTS, **{FULL: k}, **known))
+    return made
+
+
+def test_beta_binomial_model_finds_mean_and_correlation():
+    rng = np.random.default_rng(0)
+    found = compare_counts(counts(0.2, 3.0, 400, rng), counts(0.4, 9.0, 400, rng))
+    assert found.means == pytest.approx((0.2, 0.4), abs=0.03)
+    assert found.correlations == pytest.approx((0.25, 0.1), abs=0.04)
+    assert found.p < 1e-6
+
+
+def test_likelihood_is_that_of_the_distribution():
+    """Among models with these means and correlations none is likelier than the one found."""
+    rng = np.random.default_rng(1)
+    k, n = counts(0.3, 2.0, 60, rng, n=50)
+    found = compare_counts((k, n), (k, n))
+    s = 1 / found.correlations[0] - 1
+    best = betabinom.logpmf(k, n, found.means[0] * s, (1 - found.means[0]) * s).sum()
+    for mean, precision in (
+        (found.means[0] * 1.05, s),
+        (found.means[0] / 1.05, s),
+        (found.means[0], 1.1 * s),
+        (found.means[0], s / 1.1),
+    ):
+        assert betabinom.logpmf(k, n, mean * precision, (1 - mean) * precision).sum() < best
+    assert found.p == pytest.approx(1.0, abs=1e-3)
+
+
+def test_no_difference_is_claimed_more_often_than_promised():
+    """Of 100 pairs of groups without a difference, as scattered as runs are, some five have p < 0.05."""
+    rng = np.random.default_rng(2)
+    p = [compare_counts(counts(0.1, 0.4, 40, rng), counts(0.1, 0.4, 40, rng)).p for _ in range(100)]
+    assert np.mean(np.array(p) < 0.05) <= 0.12
+    assert np.mean(np.array(p) > 0.5) > 0.3
+
+
+def test_thousands_of_related_agents_are_no_evidence_by_themselves():
+    """Four of twenty runs with 5000 of them each against two: 20,000 against 10,000 agents tell nothing."""
+    first, second = np.zeros(20, int), np.zeros(20, int)
+    first[:4], second[:2] = 5000, 5000
+    n = np.full(20, AGENTS)
+    assert compare_counts((first, n), (second, n)).p > 0.2
+
+
+def test_condition_without_any_such_agent_can_be_compared():
+    n = np.full(30, AGENTS)
+    some = np.arange(30) * 100
+    found = compare_counts((some, n), (np.zeros(30, int), n))
+    # In one run of ten or more there might have been some: 0.86^30, no less.
+    assert 1e-4 < found.p < 0.01
+    assert found.means[1] < 0.001
+    assert compare_counts((np.zeros(30, int), n), (np.zeros(30, int), n)).p > 0.5
+
+
+def test_runs_without_agents_to_count_in_are_left_out():
+    rng = np.random.default_rng(3)
+    k, n = counts(0.3, 2.0, 30, rng)
+    more = np.concatenate([k, [0, 0]]), np.concatenate([n, [0, 0]])
+    assert compare_counts(more, (k, n)).means == pytest.approx(compare_counts((k, n), (k, n)).means)
+    with pytest.raises(ValueError, match="no agents to count in"):
+        compare_counts((k[:0], n[:0]), (k, n))
+
+
+def test_interval_of_a_difference_of_proportions_is_newcombe_s():
+    """The worked examples of his paper (1998), method 10: 56/70 - 48/80, 9/10 - 3/10 and 10/10 - 0/20."""
+    assert proportions_interval((56, 70), (48, 80)) == pytest.approx((0.0524, 0.3339), abs=2e-4)
+    assert proportions_interval((9, 10), (3, 10)) == pytest.approx((0.1705, 0.8090), abs=2e-4)
+    assert proportions_interval((10, 10), (0, 20)) == pytest.approx((0.6791, 1.0), abs=2e-4)
+
+
+INDICATE, IGNORE = Condition.WITH_INDICATE, Condition.WITH_IGNORE
+
+
+@pytest.mark.slow
+def test_claim_that_is_so_is_supported_and_its_contrary_contradicted():
+    worlds = Estimate(0.01, -0.02, 0.04)
+    rng = np.random.default_rng(4)
+    first, *others = answers(runs_of(Readings(), {INDICATE: 0.4, IGNORE: 0.05}, rng, 40))
+    assert first.question == "fully compositional agents"
+    assert first.p == first.corrected < 0.01
+    assert first.difference.low < 0.35 < first.difference.high
+    assert all(each.p <= each.corrected for each in others)
+    assert verdict(first, worlds).startswith("supported: +")
+    turned, *_ = answers(runs_of(Readings(), {INDICATE: 0.05, IGNORE: 0.4}, rng, 40))
+    assert verdict(turned, Estimate(-0.01, -0.02, 0.0)).startswith("contradicted: -")
+    assert verdict(turned, Estimate(0.03, 0.01, 0.05)).startswith("depends on the reading: ")
+    assert verdict(turned, worlds).startswith("undecided: ")
+
+
+def test_claim_that_is_not_so_stays_undecided():
+    first, *_ = answers(runs_of(Readings(), {INDICATE: 0.1, IGNORE: 0.1}, np.random.default_rng(5)))
+    assert first.p > 0.05
+    assert verdict(first, Estimate(0.01, -0.02, 0.04)).startswith("undecided: ")
+
+
+def test_questions_that_no_run_can_answer_are_left_out():
+    found = {
+        each.question
+        for each in answers(runs_of(Readings(), {INDICATE: 0.1, IGNORE: 0.1}, np.random.default_rng(6)))
+    }
+    assert "runs with fully compositional agents" in found
+    assert "masters that understand MOVE Blue" in found
+    # No agent is non-compositional here.
+    assert not any(each.startswith("non-compositional agents that pass") for each in found)
+
+
+def test_worlds_are_compared_with_themselves():
+    """Worlds differ by far more than the conditions do; paired, the difference shows."""
+    rng, shares = np.random.default_rng(7), {}
+    runs = []
+    for config in CONFIGS:
+        base = shares.setdefault(config.seed, rng.uniform(0, 0.8))
+        k = round(500 * (base + 0.04 * (config.condition is INDICATE) + rng.normal(0, 0.02)))
+        run = made_up(config)
+        runs.append(replace(run, counts={**run.counts, FULL: max(k, 0)}))
+    assert len(world_differences(runs, QUESTIONS[0])) == 150
+    first, *_ = averaged_over_worlds(runs)
+    assert first.difference.low > 0.02
+    assert first.difference.high < 0.06
+    assert first.p < 1e-6
+
+
+def test_claim_is_written_by_one_command(tmp_path, capsys):
+    rng = np.random.default_rng(8)
+    (tmp_path / "factorial").mkdir()
+    write_rows(runs_with_effects(1), tmp_path / "factorial" / "rows.csv")
+    (tmp_path / "hundred").mkdir()
+    made = runs_of(Readings(), {INDICATE: 0.2, IGNORE: 0.1}, rng)
+    write_rows(made, tmp_path / "hundred" / "rows.csv")
+    assert main(["study", "readings", "--part=hundred", f"--output={tmp_path}", "--now"]) == 0
+    said = capsys.readouterr().out
+    assert "printed readings: 0 and 0 runs of the conditions are measured; the tests need two of each" in said
+    assert "INDICATE fosters compositionality: undecided: +" in said
+    assert "18 of 240 runs are measured so far" in said
+    with (tmp_path / "hundred" / "results" / "claim.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert {row["runs"] for row in rows} == {"default", "factorial worlds"}
+
+
+def test_runs_of_the_hundred_are_tested_whole(tmp_path):
+    """Every late agent counts, and the row says the same as the post-evaluation does."""
+    part = hundred(Readings(), 30)
+    two = DeclaredPart(part.name, part.configs[:2], part.names, whole=True)
+    rows = RowFile(tmp_path / "rows.csv", two)
+    chains = rows.plan(tmp_path / "hundred").chains()
+    assert [[job.stage for job in chain] for chain in chains] == [["evolving", TESTING]] * 2
+    with StopRequest() as stop:
+        assert carry_out(rows, tmp_path / "hundred", 2, stop) == ()
+    found = list(rows.read().values())
+    assert [run.config for run in found] == list(two.configs)
+    # Ten late generations, five agents each; nobody masters anything after 30 generations.
+    assert all(run.counts["agents"] == 50 and run.counts["masters"] == 0 for run in found)
+    assert all((run.successes[:, 0] == run.successes[:, 1]).all() for run in found)
+    assert rows.plan(tmp_path / "elsewhere").chains() == []

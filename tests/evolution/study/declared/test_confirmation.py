@@ -1,0 +1,255 @@
+"""The confirmation: its worlds and seeds, the declared rules on made-up runs, and its commands."""
+
+import csv
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from arm2d import Condition, Readings
+from evolution.cli import main
+from evolution.study.declared.confirmation import (
+    DEFAULT,
+    PRINTED,
+    SMALLEST_DEPARTURE,
+    WORLD_A,
+    WORLD_B,
+    departures,
+    fresh,
+    fresh_worlds,
+    hundred,
+    less_one,
+    runs_of_worlds,
+)
+from evolution.study.declared.nearest import spreads
+from evolution.study.declared.parts import factorial
+from evolution.study.declared.results import chosen_worlds, regressions
+from evolution.study.declared.rows import write_rows
+from evolution.study.declared.verdict import decide, duel_table, less_one_table, world_table
+from tests.evolution.study.declared.synthetic import made_up, runs_with_effects
+
+CHOSEN = [Readings(parent_scaling="rank"), Readings(crossover=0.3, mutation_sd=0.03)]
+PAGE = (Path(__file__).parents[4] / "docs" / "declaration.md").read_text(encoding="utf-8")
+FAR, NEAR = (2.2, (0.05, 0.01, 0.0, 0.0)), (2.56, (0.6, 0.05, 0.02, 0.001))
+
+
+# Nine seeds: as few as let all ways to exchange runs be counted, and enough for a corrected p of 0.001.
+SEEDS = range(101, 110)
+
+
+def made_fresh(near, chosen=CHOSEN, noise=0.02):
+    """Runs of a confirmation in which the worlds named are near to the paper and the others are not."""
+    rng, names = np.random.default_rng(3), fresh(chosen).names
+    runs = []
+    for config in fresh(chosen).configs:
+        if config.seed not in SEEDS:
+            continue
+        plateau, shares = NEAR if names[config.readings] in near else FAR
+        own = [share * (1 + rng.normal(0, 10 * noise)) for share in shares]
+        runs.append(made_up(config, plateau + rng.normal(0, noise), own))
+    return runs
+
+
+@pytest.fixture(scope="module")
+def spread():
+    return spreads(runs_with_effects(1))
+
+
+def decided(near, spread):
+    return decide(runs_of_worlds(made_fresh(near), fresh_worlds(CHOSEN)), spread)
+
+
+def test_fresh_runs_are_thirty_of_every_world_and_condition():
+    part = fresh(CHOSEN)
+    # Six worlds in both conditions, and the printed one With-Ignore.
+    assert len(part.configs) == len(set(part.configs)) == 30 * 13
+    assert {config.seed for config in part.configs} == set(range(101, 131))
+    assert {config.settings.generations for config in part.configs} == {6000}
+    assert not {c.seed for c in part.configs} & {c.seed for c in factorial().configs}
+    printed = [c for c in part.configs if part.names[c.readings] == PRINTED]
+    assert {c.condition for c in printed} == {Condition.WITH_IGNORE}
+    assert len(set(part.names.values())) == len(part.names) == 7
+
+
+def test_world_that_has_two_names_is_run_once():
+    part = fresh([WORLD_B, CHOSEN[0]])
+    assert len(part.configs) == 30 * 11
+    own = runs_of_worlds([made_up(config) for config in part.configs], fresh_worlds([WORLD_B, CHOSEN[0]]))
+    assert own["first"] == own["b"]
+    assert len(own["b"][Condition.WITH_IGNORE]) == 30
+
+
+def test_pilots_worlds_are_those_of_the_declaration():
+    assert departures(WORLD_A).keys() == {
+        "mutation", "parent_scaling", "ties", "tau_exponent_max", "camera_origin",
+    }  # fmt: skip
+    assert replace(WORLD_B, camera_origin="end") == WORLD_A
+    assert (WORLD_A.mutation_probability, WORLD_A.mutation_sd) == (0.4, 0.03)
+    assert replace(SMALLEST_DEPARTURE, parent_scaling="raw", ties="elders") == fresh_worlds(CHOSEN)[DEFAULT]
+    assert fresh_worlds(CHOSEN)[PRINTED] == Readings.preset("printed")
+    assert "| A | `parent_scaling` excess, `ties` children, `tau_exponent_max` 1, `mutation_sd` 0.03" in PAGE
+
+
+def test_printed_runs_of_with_indicate_are_the_default_s():
+    own = runs_of_worlds(made_fresh({"b"}), fresh_worlds(CHOSEN))
+    assert own[PRINTED][Condition.WITH_INDICATE] == own[DEFAULT][Condition.WITH_INDICATE]
+    assert len(own[PRINTED][Condition.WITH_INDICATE]) == len(SEEDS)
+
+
+def test_winner_is_the_nearest_and_beats_the_printed_readings(spread):
+    found = decided({"b"}, spread)
+    assert (found.winner, found.beats) == ("b", ("b",))
+    assert min(found.distances, key=found.distances.__getitem__) == "b"
+    assert "beats the printed readings: it is to be the default" in found.sentence
+
+
+def test_default_stays_where_nothing_is_better(spread):
+    found = decided(set(), spread)
+    assert found.beats == ()
+    assert "does not beat the printed readings: the default stays" in found.sentence
+
+
+def test_world_that_is_better_in_one_condition_only_does_not_beat_the_printed(spread):
+    near, far = made_fresh({"a"}), made_fresh(set())
+    mixed = [
+        one if one.config.condition is Condition.WITH_INDICATE else other
+        for one, other in zip(near, far, strict=True)
+    ]
+    assert decide(runs_of_worlds(mixed, fresh_worlds(CHOSEN)), spread).beats == ()
+
+
+def test_world_beyond_the_published_figures_does_not_beat_the_printed(spread):
+    """More of what the paper has less of is further from it."""
+    runs = made_fresh(set())
+    names = fresh(CHOSEN).names
+    beyond = [
+        made_up(run.config, run.plateau + 0.1, (0.4, 0.9, 0.9, 0.9))
+        if names[run.config.readings] == "a"
+        else run
+        for run in runs
+    ]
+    found = decide(runs_of_worlds(beyond, fresh_worlds(CHOSEN)), spread)
+    duels = [each for each in found.duels if each.world == "a"]
+    assert all(each.corrected < 0.01 and each.difference.value > 0 for each in duels)
+    assert found.beats == ()
+
+
+def test_duels_are_corrected_together(spread):
+    found = decided({"b"}, spread)
+    assert len(found.duels) == 5 * 2 * 2
+    for each in found.duels:
+        assert each.p <= each.corrected <= 1
+    rows = list(csv.DictReader(duel_table(found).to_csv().splitlines()))
+    assert len(rows) == 20
+    worlds = fresh_worlds(CHOSEN)
+    table = list(
+        csv.DictReader(
+            world_table(runs_of_worlds(made_fresh({"b"}), worlds), worlds, found).to_csv().splitlines()
+        )
+    )
+    assert len(table) == 14
+    assert {row["world"] for row in table if row["beats printed"] == "yes"} == {"b"}
+
+
+def test_less_one_takes_back_one_departure_at_a_time():
+    part = less_one(WORLD_B)
+    assert len(part.configs) == 4 * 20
+    assert {config.condition for config in part.configs} == {Condition.WITH_INDICATE}
+    assert set(part.names.values()) == {
+        "without-mutation", "without-parent-scaling", "without-ties", "without-tau-exponent-max",
+    }  # fmt: skip
+    assert {c.seed for c in part.configs} < {c.seed for c in fresh(CHOSEN).configs}
+
+
+def test_what_a_departure_is_worth_is_told_seed_by_seed():
+    rng, part = np.random.default_rng(1), less_one(WORLD_B)
+    winner = [made_up(replace(c, readings=WORLD_B), 2.5 + rng.normal(0, 0.05)) for c in part.configs[::4]]
+    lost = {"ties": 0.3, "mutation": 0.0}
+    without = {
+        name: [
+            made_up(
+                replace(run.config, readings=departures(WORLD_B)[name]),
+                run.plateau - cost + rng.normal(0, 0.01),
+            )
+            for run in winner
+        ]
+        for name, cost in lost.items()
+    }
+    rows = {
+        (r["factor"], r["outcome"]): r
+        for r in csv.DictReader(less_one_table(winner, without).to_csv().splitlines())
+    }
+    ties, mutation = rows["ties", "plateau"], rows["mutation", "plateau"]
+    assert float(ties["difference"]) == pytest.approx(-0.3, abs=0.02)
+    assert float(ties["after Holm"]) < 0.01 < float(mutation["after Holm"])
+    assert int(ties["seeds"]) == 20
+
+
+@pytest.mark.parametrize("default", [Readings(), WORLD_B], ids=["today's", "another"])
+def test_hundred_runs_under_the_default_and_twenty_under_the_printed_readings(default):
+    part = hundred(default)
+    assert part.whole
+    counts = {name: sum(part.names[c.readings] == name for c in part.configs) for name in part.names.values()}
+    assert counts == {DEFAULT: 200, PRINTED: 40}
+    assert {c.seed for c in part.configs} == set(range(1, 101))
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    """A folder with the rows of a whole factorial study and of some seeds of its confirmation."""
+    folder = tmp_path_factory.mktemp("study")
+    runs = runs_with_effects(1)
+    (folder / "factorial").mkdir()
+    write_rows(runs, folder / "factorial" / "rows.csv")
+    chosen = [world.readings for world in chosen_worlds(regressions(runs), runs)]
+    (folder / "fresh").mkdir()
+    write_rows(made_fresh({"b"}, chosen), folder / "fresh" / "rows.csv")
+    return folder
+
+
+@pytest.mark.slow
+def test_confirmation_is_written_by_one_command(study, capsys):
+    folder = study
+    assert main(["study", "readings", "--part=fresh", f"--output={folder}", "--now"]) == 0
+    said = capsys.readouterr().out
+    assert "the winner, b, beats the printed readings: it is to be the default" in said
+    assert "117 of 390 runs are measured so far" in said
+    results = folder / "fresh" / "results"
+    assert sorted(path.name for path in results.iterdir()) == [
+        "fresh-duels.csv",
+        "fresh-worlds.csv",
+        "fresh.csv",
+    ]
+
+
+@pytest.mark.slow
+def test_less_one_asks_for_the_winner_s_departures(study, capsys):
+    folder = study
+    rng = np.random.default_rng(7)
+    (folder / "less-one").mkdir()
+    write_rows(
+        [made_up(config, 2.4 + rng.normal(0, 0.02)) for config in less_one(WORLD_B).configs],
+        folder / "less-one" / "rows.csv",
+    )
+    assert main(["study", "readings", "--part=less-one", f"--output={folder}", "--now", "--early"]) == 0
+    assert "80 of 80 runs are measured so far" in capsys.readouterr().out
+    with (folder / "less-one" / "results" / "less-one-effects.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert {row["factor"] for row in rows} == departures(WORLD_B).keys()
+
+
+@pytest.mark.slow
+def test_what_is_chosen_waits_for_what_it_is_chosen_from(study, tmp_path, capsys):
+    folder = study
+    assert main(["study", "readings", "--part=fresh", f"--output={tmp_path}", "--now"]) == 2
+    assert "0 of 450 runs of the part factorial have a row in" in capsys.readouterr().err
+    (tmp_path / "factorial").mkdir()
+    (tmp_path / "factorial" / "rows.csv").write_bytes((folder / "factorial" / "rows.csv").read_bytes())
+    (tmp_path / "fresh").mkdir()
+    (tmp_path / "fresh" / "rows.csv").write_bytes((folder / "fresh" / "rows.csv").read_bytes())
+    command = ["study", "readings", "--part=less-one", f"--output={tmp_path}", "--now"]
+    assert main(command) == 2
+    assert "117 of 390 runs of the part fresh have a row in" in capsys.readouterr().err
+    assert main([*command, "--early"]) == 0
+    assert "without ties: 0 of 20 runs are measured" in capsys.readouterr().out
