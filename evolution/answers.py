@@ -105,4 +105,7 @@ def _sentence(error: ValueError | OSError) -> str:
         text = f"{error.filename}: {error.strerror}"
     # Whatever a file or a flag holds must neither steer the terminal nor fill it.
     line = "".join(each if each.isprintable() else "?" for each in " ".join(text.split()))
-    return line if len(line) <= LONGEST_SENTENCE else f"{line[:LONGEST_SENTENCE]} ..."
+    if len(line) <= LONGEST_SENTENCE:
+        return line
+    # What is found stands first, the reason last.
+    return f"{line[: LONGEST_SENTENCE // 2]} ... {line[-LONGEST_SENTENCE // 2 :]}"

@@ -14,13 +14,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-import matplotlib as mpl
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 from arm2d.drawing import INK
+from arm2d.look import look
 from evolution.runs.storage import write_atomically
 
 FAINT: Final = "#767676"
@@ -125,6 +125,6 @@ def _saved(figure: Figure, kind: str, resolution: int) -> bytes:
     buffer = io.BytesIO()
     # Without a date, the same figure is the same file.
     metadata = {"Date": None} if kind == "svg" else None
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure.savefig(buffer, format=kind, dpi=resolution, facecolor="white", metadata=metadata)
     return buffer.getvalue()

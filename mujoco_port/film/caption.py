@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.constants import DT
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
+from arm2d.look import look
 from arm2d.video import DPI
 
 FAINT: Final = "#6B6B6B"
@@ -23,6 +24,7 @@ NEVER_MET: Final = "never met during evolution"
 BADGE: Final = {"boxstyle": "round,pad=0.45", "fc": INK, "ec": "none"}
 
 
+@look()
 def heading(instruction: Instruction, title: str, width_px: int, height_px: int) -> NDArray[np.uint8]:
     """The instruction, large, in the colour of its object; [height, width, 3].
 
@@ -43,6 +45,7 @@ def heading(instruction: Instruction, title: str, width_px: int, height_px: int)
     return pixels(figure)
 
 
+@look()
 def footing(
     verdicts: Sequence[tuple[str, bool]], seconds: float, width_px: int, height_px: int
 ) -> NDArray[np.uint8]:

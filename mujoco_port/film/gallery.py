@@ -15,6 +15,7 @@ from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.constants import DT
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
 from arm2d.films import write_mp4, write_png
+from arm2d.look import look
 from arm2d.video import Panel
 from models.robots import Robot
 from mujoco_port.film.caption import BADGE, FAINT, blank, mark, pixels
@@ -100,6 +101,7 @@ def cell_pictures(take: Take, stage: Stage) -> Iterator[NDArray[np.uint8]]:
         yield cell
 
 
+@look()
 def strip(instruction: Instruction) -> NDArray[np.uint8]:
     """The words above a cell, but for the clock."""
     figure = blank(CELL_WIDTH - CLOCK, STRIP)
@@ -111,6 +113,7 @@ def strip(instruction: Instruction) -> NDArray[np.uint8]:
 
 
 @cache
+@look()
 def clock(text: str, verdicts: tuple[bool, ...]) -> NDArray[np.uint8]:
     """The time and, once it has stopped, the verdicts: the planar world's, then the robot's."""
     figure = blank(CLOCK, STRIP)
@@ -129,6 +132,7 @@ def clock(text: str, verdicts: tuple[bool, ...]) -> NDArray[np.uint8]:
     return pixels(figure)
 
 
+@look()
 def header(robot: Robot, title: str) -> NDArray[np.uint8]:
     """The line above all cells."""
     figure = blank(WIDTH, HEADER)
