@@ -12,9 +12,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from arm2d.constants import DT
-from arm2d.drawing import FLOOR, Scene
+from arm2d.drawing import FLOOR, Scene, look
 from arm2d.films import write_mp4
-from arm2d.look import look
 from arm2d.trials import TrialRecord
 
 FRAMES_PER_STEP: Final = 3  # positions are interpolated in between

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Instruction, ObjectWord, Readings
 from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, DT
-from arm2d.drawing import INK, OBJECT_COLOURS
-from arm2d.look import look
+from arm2d.drawing import INK, OBJECT_COLOURS, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
 from evolution.agents.lesions import LESIONS, LesionScores

@@ -12,8 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from arm2d import Condition
-from arm2d.drawing import INK
-from arm2d.look import look
+from arm2d.drawing import INK, look
 from evolution.agents.classes import PARTS
 from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass

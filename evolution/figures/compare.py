@@ -11,8 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from arm2d import Condition
-from arm2d.drawing import INK
-from arm2d.look import look
+from arm2d.drawing import INK, look
 from evolution.agents.subtasks import SUBTASKS
 from evolution.figures.classes import SHORT
 from evolution.figures.page import FAINT, STYLE

@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction, ObjectWord, Readings, Trials, record_trial
 from arm2d import constants as c
-from arm2d.drawing import ARM, CAMERA, INK, OBJECT_COLOURS, Scene, arm_points, state_at
-from arm2d.look import look
+from arm2d.drawing import ARM, CAMERA, INK, OBJECT_COLOURS, Scene, arm_points, look, state_at
 from arm2d.trials import TrialRecord
 from evolution.figures.page import STYLE, svg_bytes
 from evolution.runs.sources import find_agent

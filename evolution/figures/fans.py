@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from arm2d import Condition
 from arm2d.constants import DT
-from arm2d.look import look
+from arm2d.drawing import look
 from evolution.agents.behaviour import record_behaviour
 from evolution.agents.classes import Sampling
 from evolution.agents.subtasks import AgentClass

@@ -15,8 +15,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from arm2d.drawing import INK
-from arm2d.look import look
+from arm2d.drawing import INK, look
 from evolution.agents.subtasks import AgentClass, classify
 from evolution.figures.page import FAINT, RIGHT_END, STYLE, beside
 from evolution.results.generalisers import Generalisers

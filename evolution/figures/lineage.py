@@ -12,8 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from arm2d import NON_EXPERIENCED, Instruction
-from arm2d.drawing import INK, OBJECT_COLOURS
-from arm2d.look import look
+from arm2d.drawing import INK, OBJECT_COLOURS, look
 from arm2d.records import brief
 from evolution.agents.firsts import NEVER
 from evolution.agents.lineage_scores import IN_A_ROW, LineageScores, Skills

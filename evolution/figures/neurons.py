@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from arm2d import ObjectWord
 from arm2d.constants import N_INTER
-from arm2d.drawing import INK, OBJECT_COLOURS
-from arm2d.look import look
+from arm2d.drawing import INK, OBJECT_COLOURS, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.variance import VarianceShares, bin_times, events_of, mean_by_instruction
 from evolution.figures.page import FAINT, STYLE, head

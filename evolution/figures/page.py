@@ -19,8 +19,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from arm2d.drawing import INK
-from arm2d.look import look
+from arm2d.drawing import INK, look
 from evolution.runs.storage import write_atomically
 
 FAINT: Final = "#767676"
@@ -60,10 +59,10 @@ def head(figure: Figure, title: str, origin: str, left: float = 0.015) -> None:
 
 
 def beside(
-    axes: Axes, text: str, place: tuple[float, float], offset: tuple[float, float], **look: Any
+    axes: Axes, text: str, place: tuple[float, float], offset: tuple[float, float], **style: Any
 ) -> None:
     """Text so many points away from a place of the data, even where no data are drawn."""
-    axes.annotate(text, place, offset, textcoords="offset points", annotation_clip=False, **look)
+    axes.annotate(text, place, offset, textcoords="offset points", annotation_clip=False, **style)
 
 
 def ink_on(share: float) -> str:

@@ -15,8 +15,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from arm2d.drawing import INK
-from arm2d.look import look
+from arm2d.drawing import INK, look
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS
 from evolution.agents.transitions import Transition, action_transitions, object_transitions
 from evolution.figures.generalisers import CLASS_COLOURS, generalisers_figure

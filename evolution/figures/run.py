@@ -11,8 +11,7 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from arm2d import ActionWord, ObjectWord
-from arm2d.drawing import OBJECT_COLOURS
-from arm2d.look import look
+from arm2d.drawing import OBJECT_COLOURS, look
 from evolution.figures.page import FAINT, RIGHT_END, STYLE, SUCCESS_MAP, beside, head, ink_on
 from evolution.runs.history import History
 from evolution.search.evaluation import Evaluation

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from arm2d import ObjectWord
 from arm2d.constants import N_INTER
-from arm2d.drawing import INK, OBJECT_COLOURS
-from arm2d.look import look
+from arm2d.drawing import INK, OBJECT_COLOURS, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
 from evolution.figures.neurons import object_handles

@@ -12,8 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from arm2d import Condition
-from arm2d.drawing import INK
-from arm2d.look import look
+from arm2d.drawing import INK, look
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP, ink_on
 from evolution.results import published

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.constants import DT
-from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
-from arm2d.look import look
+from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS, look
 from arm2d.video import DPI
 
 FAINT: Final = "#6B6B6B"

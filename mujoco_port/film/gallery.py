@@ -13,9 +13,8 @@ from rich.progress import track
 
 from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.constants import DT
-from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
+from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS, look
 from arm2d.films import write_mp4, write_png
-from arm2d.look import look
 from arm2d.video import Panel
 from models.robots import Robot
 from mujoco_port.film.caption import BADGE, FAINT, blank, mark, pixels

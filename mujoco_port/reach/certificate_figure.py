@@ -10,8 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from arm2d.drawing import INK
-from arm2d.look import look
+from arm2d.drawing import INK, look
 from arm2d.records import brief
 from models.robots import Robot
 from mujoco_port.reach.certificate import Certificate

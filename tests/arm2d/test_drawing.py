@@ -1,6 +1,7 @@
 """Pictures and videos of the planar world."""
 
 import imageio.v2 as imageio
+import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
@@ -8,9 +9,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Wedge
 
 from arm2d import Readings, draw_state, record_trial, render_video
-from arm2d.drawing import OBJECT_COLOURS, Scene, arm_points, state_at
+from arm2d.drawing import OBJECT_COLOURS, Scene, arm_points, look, state_at
 from arm2d.video import Panel
 from tests.arm2d.controllers import one_trial, steady_controller
+
+# What a matplotlibrc may ask for.
+STRANGE = {"font.size": 30.0, "axes.facecolor": "red", "lines.linewidth": 9.0, "text.usetex": True}
 
 
 @pytest.fixture(scope="module")
@@ -118,3 +122,18 @@ def test_video_into_a_missing_folder_leaves_nothing_behind(record, tmp_path):
     with pytest.raises(OSError):  # noqa: PT011 - whichever the writer raises
         render_video(record, tmp_path / "missing" / "trial.mp4")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_style_is_in_force_only_while_it_is_asked_for():
+    with mpl.rc_context(STRANGE):
+        with look({"font.size": 7.0}):
+            assert mpl.rcParams["font.size"] == 7.0
+            assert mpl.rcParams["axes.facecolor"] == mpl.rcParamsDefault["axes.facecolor"]
+            assert not mpl.rcParams["text.usetex"]
+        assert mpl.rcParams["font.size"] == STRANGE["font.size"]
+
+
+def test_a_films_frames_are_the_same_under_any_style(record):
+    plain = Panel(record, 240, 180, note="a note").frame(2.5)
+    with mpl.rc_context(STRANGE):
+        assert np.array_equal(Panel(record, 240, 180, note="a note").frame(2.5), plain)

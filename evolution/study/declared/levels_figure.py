@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from arm2d import Condition
-from arm2d.drawing import INK
-from arm2d.look import look
+from arm2d.drawing import INK, look
 from evolution.figures.page import FAINT, STYLE
 from evolution.figures.paper import TITLES
 from evolution.study.declared.factors import FACTORS
