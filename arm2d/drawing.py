@@ -9,7 +9,7 @@ Lengths are in [cm]; the arm's base J1 is at the origin, x to the agent's right.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Final, TypeVar
 
@@ -47,15 +47,15 @@ SMALLEST_LETTERS: Final = 6.0
 
 
 @contextmanager
-def look(style: Mapping[str, Any] | None = None) -> Iterator[None]:
+def look(style: dict[Any, Any] | None = None) -> Iterator[None]:
     """While open, what is drawn looks as Matplotlib comes, but for a style, whatever a `matplotlibrc` says.
 
     Such a file may ask for LaTeX, cut pages or colour them; and Matplotlib reads one from the current folder.
     """
     with mpl.rc_context():
         mpl.rcdefaults()
-        mpl.rcParams.update(style or {})
-        yield
+        with mpl.rc_context(style):
+            yield
 
 
 class Scene:

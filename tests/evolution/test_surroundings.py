@@ -45,6 +45,7 @@ def evaluated(tmp_path_factory):
         {"OMP_NUM_THREADS": "none", "OPENBLAS_NUM_THREADS": "-1"},
         {"PYTHONOPTIMIZE": "2"},
         {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"},
+        {"PYTHONWARNINGS": "error"},
         {"TERM": "dumb", "COLUMNS": "0"},
     ],
     ids=str,
@@ -104,3 +105,11 @@ def test_a_back_end_is_left_alone_only_as_long_as_nothing_draws(tmp_path):
     )
     done = run([sys.executable, "-c", code], tmp_path, MUJOCO_GL="nonsense")
     assert done.stdout.split() == ["0", "nonsense"], done.stderr
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+def test_streams_that_are_closed_are_nobodys_loss(closed, finished_run):
+    command = f'"$0" -m wordarm status "$1" {closed}'
+    done = run(["sh", "-c", command, sys.executable, str(finished_run)], finished_run)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert ("done" in done.stdout) == (closed == "2>&-")
