@@ -2,14 +2,18 @@
 
     Scene(axes, record).show(step)      draws once, then moves what moves
     draw_state(axes, record, step)      one state
+    with look(): ...                    the same on every machine
 
 Lengths are in [cm]; the arm's base J1 is at the origin, x to the agent's right.
 """
 
 from __future__ import annotations
 
-from typing import Final, TypeVar
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, Final, TypeVar
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
@@ -40,6 +44,18 @@ S1_WIDTH: Final = 7.0
 S2_WIDTH: Final = 3.4
 # Below this a small panel's letters can no longer be read [points].
 SMALLEST_LETTERS: Final = 6.0
+
+
+@contextmanager
+def look(style: dict[Any, Any] | None = None) -> Iterator[None]:
+    """While open, what is drawn looks as Matplotlib comes, but for a style, whatever a `matplotlibrc` says.
+
+    Such a file may ask for LaTeX, cut pages or colour them; and Matplotlib reads one from the current folder.
+    """
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        with mpl.rc_context(style):
+            yield
 
 
 class Scene:

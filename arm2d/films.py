@@ -30,6 +30,7 @@ from arm2d.files import handle_of_new
 # takes a third of the default's time, and a constant rate factor of 15 leaves edges sharp.
 ENCODING: Final = ("-an", "-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "15", "-preset", "veryfast")
 FORMAT: Final = ("-movflags", "+faststart", "-f", "mp4")
+KEPT_OF_A_NAME: Final = 50  # characters, in that of the file that is not finished
 NO_ROOM: Final = "No space left on device"  # as ffmpeg says it
 # Signals that end a process, unless it takes them up.
 ENDING: Final = (
@@ -126,7 +127,8 @@ def unfinished(path: Path) -> Iterator[Path]:
     """
     # Absolute: to ffmpeg, what stands before the first colon of a relative path is a protocol.
     folder = Path(os.path.abspath(path)).parent
-    file = folder / f".{path.name}.{secrets.token_hex(4)}.unfinished"
+    # A name may be as long as the file system allows, which this one must not exceed.
+    file = folder / f".{path.name[:KEPT_OF_A_NAME]}.{secrets.token_hex(4)}.unfinished"
     with _ending_in_order():
         try:
             try:

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from arm2d.constants import DT
-from arm2d.drawing import FLOOR, Scene
+from arm2d.drawing import FLOOR, Scene, look
 from arm2d.films import write_mp4
 from arm2d.trials import TrialRecord
 
@@ -43,13 +43,14 @@ class Panel:
         note: str = "",
         outcome: bool | None = None,
     ) -> None:
-        figure = Figure(figsize=(width_px / DPI, height_px / DPI), dpi=DPI, facecolor=FLOOR)
-        self._canvas = FigureCanvasAgg(figure)
-        self._axes = figure.add_axes((0, 0, 1, 1))
-        self._scene = Scene(self._axes, record, caption=caption, note=note, outcome=outcome)
-        for artist in self._scene.moving:
-            artist.set_animated(True)
-        self._canvas.draw()
+        with look():
+            figure = Figure(figsize=(width_px / DPI, height_px / DPI), dpi=DPI, facecolor=FLOOR)
+            self._canvas = FigureCanvasAgg(figure)
+            self._axes = figure.add_axes((0, 0, 1, 1))
+            self._scene = Scene(self._axes, record, caption=caption, note=note, outcome=outcome)
+            for artist in self._scene.moving:
+                artist.set_animated(True)
+            self._canvas.draw()
         self._background = self._canvas.copy_from_bbox(figure.bbox)
 
     def frame(self, step: float) -> NDArray[np.uint8]:

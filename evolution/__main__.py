@@ -6,6 +6,9 @@ import sys
 def main() -> int:
     """Run a command and return its exit code."""
     try:
+        from mujoco_port.neighbours import come_first
+
+        come_first()
         from evolution.cli import main as command_line
 
         return command_line()

@@ -23,6 +23,7 @@ class OutputClosedError(BrokenPipeError):
 
 def answer(run: Callable[[], int]) -> int:
     """The exit code of what a command does; what is wrong with its input is printed in one sentence."""
+    _open_closed_streams()
     if isinstance(sys.stdout, TextIOWrapper):
         # What the output cannot encode is no reason to fail.
         sys.stdout.reconfigure(errors="replace")
@@ -42,6 +43,20 @@ def answer(run: Callable[[], int]) -> int:
     except KeyboardInterrupt:
         _say("stopped by Ctrl-C")
         return INTERRUPTED
+
+
+def _open_closed_streams() -> None:
+    """Let what is printed to a stream that the caller closed (`>&-`) go nowhere.
+
+    Else the next file that is opened would get its number, and whatever prints would write into that file.
+    """
+    while (number := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(number, True)
+    os.close(number)
+    if sys.stdout is None:
+        sys.stdout = os.fdopen(1, "w", closefd=False)
+    if sys.stderr is None:
+        sys.stderr = os.fdopen(2, "w", closefd=False)
 
 
 def _written_out(run: Callable[[], int]) -> int:
@@ -105,4 +120,7 @@ def _sentence(error: ValueError | OSError) -> str:
         text = f"{error.filename}: {error.strerror}"
     # Whatever a file or a flag holds must neither steer the terminal nor fill it.
     line = "".join(each if each.isprintable() else "?" for each in " ".join(text.split()))
-    return line if len(line) <= LONGEST_SENTENCE else f"{line[:LONGEST_SENTENCE]} ..."
+    if len(line) <= LONGEST_SENTENCE:
+        return line
+    # What is found stands first, the reason last.
+    return f"{line[: LONGEST_SENTENCE // 2]} ... {line[-LONGEST_SENTENCE // 2 :]}"

@@ -95,6 +95,8 @@ def _main(arguments: Sequence[str]) -> int:
     # A run is one thread; idle threads of linear algebra would only cost memory.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
+    # A notebook's back end may not exist here, a number be 0: nothing is shown, no kernel has threads.
+    os.environ.update(MPLBACKEND="agg", NUMBA_NUM_THREADS="1")
     if not arguments:
         print(overview(), file=sys.stderr)
         return BAD_INPUT
@@ -106,7 +108,16 @@ def _main(arguments: Sequence[str]) -> int:
 
         print(f"wordarm {versions()['wordarm']}, revision {revision()}")
         return 0
+    _check_current_folder()
     return parse(arguments).run()
+
+
+def _check_current_folder() -> None:
+    """Refuse a current folder that was removed: libraries would stumble over it without a name."""
+    try:
+        os.getcwd()
+    except OSError as error:
+        raise OSError(f"the current folder cannot be used ({error.strerror}); go to another: cd ~") from None
 
 
 def _one_line(message: Warning | str, *_: object, **__: object) -> str:

@@ -51,17 +51,23 @@ class Agree:
         for name, number in (("starts", self.starts), ("processes", self.processes)):
             if number is not None and number < 1:
                 raise ValueError(f"--{name} {number} makes no trials; give at least 1")
+        from mujoco_port.film.gl import choose_back_end, without_drawing
+
+        if "camera" not in self.loops:
+            with without_drawing():
+                return self._count()
+        choose_back_end()
+        return self._count()
+
+    def _count(self) -> int:
         from rich.console import Console
         from rich.progress import track
 
         from models.robots import get_robot
         from mujoco_port.acting.agreement import jobs, outcomes
         from mujoco_port.acting.tally import tables
-        from mujoco_port.film.gl import choose_back_end
 
         get_robot(self.robot)
-        if "camera" in self.loops:
-            choose_back_end()
         listed = jobs([candidate(name) for name in self.sources], self.loops, self.starts, self.seed)
         processes = self.processes or len(os.sched_getaffinity(0))
         console = Console()
@@ -125,7 +131,10 @@ class Workspace:
                     f"a scale of {self.scale:g} m/cm is no map; give a positive one, such as 0.002"
                 )
             robot = replace(robot, plane=replace(robot.plane, scale=self.scale))
-        return self._search(robot) if self.search else self._certify(robot)
+        from mujoco_port.film.gl import without_drawing
+
+        with without_drawing():
+            return self._search(robot) if self.search else self._certify(robot)
 
     def _certify(self, robot: Robot) -> int:
         from evolution.figures.page import save_figure

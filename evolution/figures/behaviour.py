@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Instruction, ObjectWord, Readings
 from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, DT
-from arm2d.drawing import INK, OBJECT_COLOURS
+from arm2d.drawing import INK, OBJECT_COLOURS, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
 from evolution.agents.lesions import LESIONS, LesionScores
@@ -27,7 +26,7 @@ SHOWN_PER_AREA: Final = 10
 
 def trajectories_figure(behaviour: Behaviour, readings: Readings, origin: str = "") -> Figure:
     """A page with both joint angles over time, a panel for each instruction."""
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(9.2, 9.4))
         head(figure, "What the arm does", origin)
         grid = figure.add_gridspec(
@@ -107,7 +106,7 @@ def trajectory_handles() -> list[Line2D]:
 
 def lesions_figure(scores: LesionScores, origin: str = "") -> Figure:
     """A page with success without and with each lesion, a row for each instruction; a mean over agents."""
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(9.2, 5.3))
         head(figure, "Which word is needed, and when", origin)
         axes = figure.add_axes((0.155, 0.095, 0.83, 0.63))

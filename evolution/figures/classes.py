@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -13,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from arm2d import Condition
-from arm2d.drawing import INK
+from arm2d.drawing import INK, look
 from evolution.agents.classes import PARTS
 from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass
@@ -37,7 +36,7 @@ SHORT: Final = {
 
 def classes_figure(behaviours: Behaviours) -> Figure:
     """A row for each condition: shares of variance before and after sight; success with each lesion."""
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(10.4, 0.9 + 4.3 * len(behaviours)), layout="constrained")
         panels = figure.subplots(len(behaviours), 2, squeeze=False, width_ratios=(1, 1.15))
         for (left, right), (condition, classes) in zip(panels, behaviours.items(), strict=True):

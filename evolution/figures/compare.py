@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from arm2d import Condition
-from arm2d.drawing import INK
+from arm2d.drawing import INK, look
 from evolution.agents.subtasks import SUBTASKS
 from evolution.figures.classes import SHORT
 from evolution.figures.page import FAINT, STYLE
@@ -48,7 +47,7 @@ def compare_figure(experiments: Mapping[str, Results]) -> Figure:
     conditions = by_condition(experiments)
     names = list(experiments)
     height = 0.9 + len(conditions) * (1.6 + 0.5 * len(names))
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(11.5, height), layout="constrained")
         panels = figure.subplots(len(conditions), 4, squeeze=False, width_ratios=(1, 1, 1.1, 1.1))
         lowest = _lowest(conditions)

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -21,7 +20,7 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction, ObjectWord, Readings, Trials, record_trial
 from arm2d import constants as c
-from arm2d.drawing import ARM, CAMERA, INK, OBJECT_COLOURS, Scene, arm_points, state_at
+from arm2d.drawing import ARM, CAMERA, INK, OBJECT_COLOURS, Scene, arm_points, look, state_at
 from arm2d.trials import TrialRecord
 from evolution.figures.page import STYLE, svg_bytes
 from evolution.runs.sources import find_agent
@@ -200,7 +199,7 @@ def _draw_inputs(axes: Axes, heights: list[float]) -> None:
 def main(path: Path) -> None:
     """Write the picture."""
     agent = find_agent(AGENT)
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         write_atomically(path, svg_bytes(concept_figure(example(agent.genotype, agent.readings))))
     print(path)
 

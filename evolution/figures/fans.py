@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Final
 
-import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from arm2d import Condition
 from arm2d.constants import DT
+from arm2d.drawing import look
 from evolution.agents.behaviour import record_behaviour
 from evolution.agents.classes import Sampling
 from evolution.agents.subtasks import AgentClass
@@ -40,7 +40,7 @@ def fans_figure(
         return None
     instructions = condition.instructions
     height = HEAD + FOOT + ROW * len(instructions)
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(3.35 * len(shown) + 0.6, height))
         what = "An agent of each class" if len(shown) > 1 else "An agent of the only class there is"
         head(figure, what, f"{TITLES[condition]}; nearest in success to the mean of its class")

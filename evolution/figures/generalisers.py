@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
@@ -16,7 +15,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from arm2d.drawing import INK
+from arm2d.drawing import INK, look
 from evolution.agents.subtasks import AgentClass, classify
 from evolution.figures.page import FAINT, RIGHT_END, STYLE, beside
 from evolution.results.generalisers import Generalisers
@@ -45,7 +44,7 @@ def generalisers_figure(results: Results) -> Figure:
         [_height(found, run) for run in range(len(found.runs))] for found in results.conditions.values()
     ]
     tall = [max(sum(own), FLAT) for own in heights]
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(9.2, 1.5 + sum(tall) + 0.45 * len(tall)), layout="constrained")
         panels = figure.subplots(len(tall), 1, sharex=True, squeeze=False, height_ratios=tall)[:, 0]
         for axes, own, (condition, found) in zip(panels, heights, results.conditions.items(), strict=True):

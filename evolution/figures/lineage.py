@@ -6,14 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from arm2d import NON_EXPERIENCED, Instruction
-from arm2d.drawing import INK, OBJECT_COLOURS
+from arm2d.drawing import INK, OBJECT_COLOURS, look
 from arm2d.records import brief
 from evolution.agents.firsts import NEVER
 from evolution.agents.lineage_scores import IN_A_ROW, LineageScores, Skills
@@ -61,7 +60,7 @@ def lineage_figure(scores: LineageScores, origin: str = "") -> Figure:
     groups = skill_rows(scores)
     n_rows = sum(len(rows) for _, rows in groups)
     height = HEAD + FOOT + n_rows * ROW_HEIGHT + len(groups) * GROUP_GAP
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(WIDTH, height))
         head(figure, "The agent's line of ancestors", origin, left=0.02)
         top = height - HEAD

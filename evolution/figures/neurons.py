@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 
 from arm2d import ObjectWord
 from arm2d.constants import N_INTER
-from arm2d.drawing import INK, OBJECT_COLOURS
+from arm2d.drawing import INK, OBJECT_COLOURS, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.variance import VarianceShares, bin_times, events_of, mean_by_instruction
 from evolution.figures.page import FAINT, STYLE, head
@@ -32,7 +31,7 @@ SHARE_LABELS: Final = {
 
 def activity_figure(behaviour: Behaviour, origin: str = "") -> Figure:
     """A page with each inter-neuron's mean output round each event, a line for each instruction."""
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(9.2, 6.6))
         head(figure, "What the three inter-neurons do", origin)
         panels = figure.subplots(N_INTER, 3, sharey=True, sharex="col")
@@ -63,7 +62,7 @@ def draw_activity(axes: Axes, means: NDArray[np.float64]) -> None:
 
 def variance_figure(shares: Mapping[str, VarianceShares], origin: str = "") -> Figure:
     """A page with the shares of variance round each event, by the event's name."""
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(9.2, 4.0))
         head(figure, "Which word the activity follows", origin)
         panels = figure.subplots(1, len(shares), sharey=True, squeeze=False)[0]

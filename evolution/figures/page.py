@@ -14,13 +14,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-import matplotlib as mpl
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from arm2d.drawing import INK
+from arm2d.drawing import INK, look
 from evolution.runs.storage import write_atomically
 
 FAINT: Final = "#767676"
@@ -60,10 +59,10 @@ def head(figure: Figure, title: str, origin: str, left: float = 0.015) -> None:
 
 
 def beside(
-    axes: Axes, text: str, place: tuple[float, float], offset: tuple[float, float], **look: Any
+    axes: Axes, text: str, place: tuple[float, float], offset: tuple[float, float], **style: Any
 ) -> None:
     """Text so many points away from a place of the data, even where no data are drawn."""
-    axes.annotate(text, place, offset, textcoords="offset points", annotation_clip=False, **look)
+    axes.annotate(text, place, offset, textcoords="offset points", annotation_clip=False, **style)
 
 
 def ink_on(share: float) -> str:
@@ -125,6 +124,6 @@ def _saved(figure: Figure, kind: str, resolution: int) -> bytes:
     buffer = io.BytesIO()
     # Without a date, the same figure is the same file.
     metadata = {"Date": None} if kind == "svg" else None
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure.savefig(buffer, format=kind, dpi=resolution, facecolor="white", metadata=metadata)
     return buffer.getvalue()

@@ -15,7 +15,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from arm2d.drawing import INK
+from arm2d.drawing import INK, look
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS
 from evolution.agents.transitions import Transition, action_transitions, object_transitions
 from evolution.figures.generalisers import CLASS_COLOURS, generalisers_figure
@@ -34,7 +34,7 @@ CATEGORY_MAP: Final = LinearSegmentedColormap.from_list(
 
 def fitness_figure(results: Results) -> Figure:
     """Fig. 3: best fitness per generation, a line per run; a dot where one genotype first solved all."""
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(9.2, 4.1), layout="constrained")
         panels = figure.subplots(1, len(results.conditions), sharey=True, squeeze=False)[0]
         for axes, (condition, found) in zip(panels, results.conditions.items(), strict=True):
@@ -62,7 +62,7 @@ def _draw_fitness(axes: Axes, results: ConditionResults) -> None:
 
 def table_figure(results: Results) -> Figure:
     """Table II as stacked bars: share of agents by category, ours beside the published ones."""
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(9.2, 3.9), layout="constrained")
         panels = figure.subplots(1, len(results.conditions), sharey=True, squeeze=False)[0]
         for axes, (condition, found) in zip(panels, results.conditions.items(), strict=True):
@@ -95,7 +95,7 @@ def _draw_bars(axes: Axes, ours: np.ndarray, theirs: np.ndarray) -> None:
 
 def transitions_figure(results: Results) -> Figure:
     """Fig. 4: mean success in every transition, class by class; how many agents pass stands in the legend."""
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(9.2, 4.3 * len(results.conditions)), layout="constrained")
         panels = figure.subplots(len(results.conditions), 2, squeeze=False, sharey=True)
         for pair, (condition, found) in zip(panels, results.conditions.items(), strict=True):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -12,7 +11,7 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from arm2d import ActionWord, ObjectWord
-from arm2d.drawing import OBJECT_COLOURS
+from arm2d.drawing import OBJECT_COLOURS, look
 from evolution.figures.page import FAINT, RIGHT_END, STYLE, SUCCESS_MAP, beside, head, ink_on
 from evolution.runs.history import History
 from evolution.search.evaluation import Evaluation
@@ -24,7 +23,7 @@ MEAN_COLOUR: Final = "#8FB3CC"
 
 def heat_map(evaluation: Evaluation, origin: str = "") -> Figure:
     """A page with the successes of one agent on all nine instructions."""
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(6.0, 5.7))
         axes = figure.add_axes((0.175, 0.075, 0.8, 0.74))
         draw_heat_map(axes, evaluation)
@@ -68,7 +67,7 @@ def _draw_cell(axes: Axes, row: int, column: int, count: int, trials: int, never
 
 def fitness_curve(history: History, origin: str = "") -> Figure:
     """A page with the fitness of a run over its generations."""
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(7.6, 4.6))
         axes = figure.add_axes((0.085, 0.125, 0.89, 0.735))
         draw_fitness_curve(axes, history)

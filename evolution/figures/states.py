@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 
 from arm2d import ObjectWord
 from arm2d.constants import N_INTER
-from arm2d.drawing import INK, OBJECT_COLOURS
+from arm2d.drawing import INK, OBJECT_COLOURS, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
 from evolution.figures.neurons import object_handles
@@ -26,7 +25,7 @@ def state_space_figure(behaviour: Behaviour, origin: str = "") -> Figure:
     """A page with the paths of the three outputs in the plane that shows most of them, by action word."""
     mean, plane, shares = principal_plane(behaviour.activity)
     actions = [word.action.name for word in behaviour.condition.instructions[::3]]
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(9.2, 4.3))
         head(figure, "The paths through the network's states", origin)
         panels = figure.subplots(1, 3, sharex=True, sharey=True)

@@ -6,14 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from arm2d import Condition
-from arm2d.drawing import INK
+from arm2d.drawing import INK, look
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP, ink_on
 from evolution.results import published
@@ -74,7 +73,7 @@ def effects_figure(variants: Sequence[VariantMeasures], title: str) -> Figure:
 
     The dashed line is the paper's value, the shaded band the default's interval. Variants of one condition.
     """
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(9.6, 1.5 + ROW_HEIGHT * len(variants)), layout="constrained")
         panels = figure.subplots(1, len(COLUMNS), sharey=True, squeeze=False)[0]
         for axes, column in zip(panels, COLUMNS, strict=True):
@@ -129,7 +128,7 @@ def failures_figure(variants: Sequence[VariantMeasures], title: str) -> Figure:
         for instruction, new in zip(condition.instructions, never_met, strict=True)
         for area in AREAS
     ]
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(9.6, 2.2 + ROW_HEIGHT * len(variants)), layout="constrained")
         axes = figure.subplots()
         shares = np.array([each.success_by_area.ravel() for each in variants])

@@ -9,6 +9,8 @@ by recursive Newton-Euler (Pinocchio), so that the spring has to make up for con
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Final
 
 import mujoco
@@ -36,6 +38,20 @@ UNSTABLE: Final = tuple(
 
 class UnstableError(ValueError):
     """A simulation that blew up: nothing in it means anything."""
+
+
+@contextmanager
+def _no_log() -> Iterator[None]:
+    """While open, MuJoCo prints no warning, nor adds it to a MUJOCO_LOG.TXT in the current folder.
+
+    It counts them all the same, for `Body.refuse_unstable`.
+    """
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda _: None)
+    try:
+        yield
+    finally:
+        mujoco.set_mju_user_warning(before)
 
 
 class Body:
@@ -111,7 +127,8 @@ class Body:
         self.data.ctrl[:] = self.set_points(
             Motion(*(np.stack([each]) for each in (angles, 0 * angles, 0 * angles)))
         )[0]
-        mujoco.mj_forward(self.model, self.data)
+        with _no_log():
+            mujoco.mj_forward(self.model, self.data)
 
     def set_points(self, motion: Motion) -> NDArray[np.float64]:
         """The actuators' controls [N, J] in [rad] for a motion of N moments."""
@@ -127,7 +144,8 @@ class Body:
     def advance(self, set_point: NDArray[np.float64]) -> None:
         """Take one physics step towards a set point [J] in [rad]."""
         self.data.ctrl[:] = set_point
-        mujoco.mj_step(self.model, self.data)
+        with _no_log():
+            mujoco.mj_step(self.model, self.data)
 
     def refuse_unstable(self) -> None:
         """Check that the simulation has not blown up, of which MuJoCo only warns before it begins anew.

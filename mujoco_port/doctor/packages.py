@@ -20,6 +20,7 @@ from packaging.requirements import Requirement
 
 from mujoco_port.doctor.children import Attempt, attempt
 from mujoco_port.doctor.findings import Finding, State
+from mujoco_port.film.gl import VARIABLE
 
 TOPIC: Final = "packages"
 PROJECT: Final = "wordarm"
@@ -141,7 +142,9 @@ def needed_packages() -> list[Package]:
 def examine_package(asked: Requirement) -> Package:
     """Import one package in a process of its own."""
     module = module_of(asked.name)
-    return Package(asked, None if module is None else attempt(IMPORT, module))
+    # With a back end that is not there mujoco refuses to be imported: that is no fault of the package.
+    quiet = {VARIABLE: ""}
+    return Package(asked, None if module is None else attempt(IMPORT, module, environment=quiet))
 
 
 def remedy(reason: str, asked: str) -> str:

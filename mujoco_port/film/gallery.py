@@ -14,7 +14,7 @@ from rich.progress import track
 
 from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.constants import DT
-from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
+from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS, look
 from arm2d.films import write_mp4, write_png
 from models.robots import Robot
 from mujoco_port.film.panel import BADGE, FAINT, blank, mark, pixels
@@ -122,6 +122,7 @@ def _place(k: int) -> tuple[slice, slice]:
 
 
 @cache
+@look()
 def strip(instruction: Instruction) -> NDArray[np.uint8]:
     """The words above a cell, but for the clock."""
     figure = blank(CELL_WIDTH - CLOCK, STRIP)
@@ -133,6 +134,7 @@ def strip(instruction: Instruction) -> NDArray[np.uint8]:
 
 
 @cache
+@look()
 def clock(text: str, verdicts: tuple[bool, ...]) -> NDArray[np.uint8]:
     """The time and, once it has stopped, the verdicts: the planar world's, then the robot's."""
     figure = blank(CLOCK, STRIP)
@@ -151,6 +153,7 @@ def clock(text: str, verdicts: tuple[bool, ...]) -> NDArray[np.uint8]:
     return pixels(figure)
 
 
+@look()
 def header(robot: Robot, title: str) -> NDArray[np.uint8]:
     """The line above all cells."""
     figure = blank(WIDTH, HEADER)

@@ -90,6 +90,19 @@ def choose_back_end() -> str:
     return name
 
 
+@contextmanager
+def without_drawing() -> Iterator[None]:
+    """While open, mujoco can be imported, by child processes too, whatever MUJOCO_GL says: nothing draws."""
+    before = os.environ.get(VARIABLE)
+    os.environ[VARIABLE] = "disable"
+    try:
+        yield
+    finally:
+        del os.environ[VARIABLE]
+        if before is not None:
+            os.environ[VARIABLE] = before
+
+
 def new_context(width_px: int, height_px: int) -> Any:
     """A context of OpenGL, of the chosen back end even if mujoco was imported before it was chosen.
 
@@ -117,7 +130,8 @@ def refuse_other_renderer() -> None:
     import mujoco
 
     name = choose_back_end()
-    if name in BACK_ENDS and mujoco.GLContext.__module__ != f"mujoco.{name}":
+    context = getattr(mujoco, "GLContext", None)  # there is none if it was imported without drawing
+    if name in BACK_ENDS and (context is None or context.__module__ != f"mujoco.{name}"):
         raise NoRenderingError(
             f"mujoco was imported before a back end was chosen; set {VARIABLE}={name} before starting "
             "Python, or call mujoco_port.choose_back_end() first"

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import NON_EXPERIENCED, ActionWord, Instruction, ObjectWord
 from arm2d import constants as c
-from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS
+from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS, look
 from arm2d.video import DPI
 from mujoco_port.film.take import Mind
 
@@ -49,6 +49,7 @@ class MindPanel:
         end: The step at which the verdicts are known.
     """
 
+    @look()
     def __init__(
         self,
         mind: Mind,
@@ -79,6 +80,7 @@ class MindPanel:
         self._shown: tuple[int, bool] | None = None
         self._picture = np.empty(0, np.uint8)
 
+    @look()
     def frame(self, step: float) -> NDArray[np.uint8]:
         """The picture after `step` steps; what changes with a control step is drawn anew with it."""
         ended, last = step >= self._end, len(self._mind.share) - 1

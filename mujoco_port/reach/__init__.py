@@ -1,1 +1,5 @@
 """From the plane to the robot: the map to the table, inverse kinematics, the workspace certificate."""
+
+from mujoco_port.neighbours import check
+
+check()

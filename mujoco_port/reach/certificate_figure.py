@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from arm2d.drawing import INK
+from arm2d.drawing import INK, look
 from arm2d.records import brief
 from models.robots import Robot
 from mujoco_port.reach.certificate import Certificate
@@ -41,7 +40,7 @@ class Layer:
 
 def draw_certificate(certificate: Certificate, robot: Robot) -> Figure:
     """Draw what was measured, the worse of both walks everywhere, the worst place of each map marked."""
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(11.0, 6.6))
         axes = figure.subplots(2, 3, sharex=True, sharey=True).ravel()
         for panel, layer in zip(axes, _layers(certificate), strict=True):

@@ -3,6 +3,7 @@
 from itertools import combinations
 
 import imageio.v2 as imageio
+import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.colors import rgb_to_hsv, to_rgb
@@ -10,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Wedge
 
 from arm2d import Readings, draw_state, record_trial, render_video
-from arm2d.drawing import FLOOR, OBJECT_COLOURS, Scene, arm_points, state_at
+from arm2d.drawing import FLOOR, OBJECT_COLOURS, Scene, arm_points, look, state_at
 from arm2d.video import Panel
 from tests.arm2d.controllers import one_trial, steady_controller
 
@@ -40,6 +41,9 @@ APART = 30.0  # CIE 1976 colour difference; some 2.3 are just noticeable
 # Hues [deg] that people name so, and how far others reach on either side.
 HUES = {"BLUE": 225.0, "GREEN": 145.0, "RED": 360.0}
 READABLE = 3.0  # contrast with the floor, of large letters and marks (WCAG 2.1)
+
+# What a matplotlibrc may ask for.
+STRANGE = {"font.size": 30.0, "axes.facecolor": "red", "lines.linewidth": 9.0, "text.usetex": True}
 
 
 @pytest.fixture(scope="module")
@@ -184,3 +188,18 @@ def test_words_in_these_colours_can_be_read():
 
     for colour in OBJECT_COLOURS.values():
         assert (luminance(FLOOR) + 0.05) / (luminance(colour) + 0.05) > READABLE
+
+
+def test_a_style_is_in_force_only_while_it_is_asked_for():
+    with mpl.rc_context(STRANGE):
+        with look({"font.size": 7.0}):
+            assert mpl.rcParams["font.size"] == 7.0
+            assert mpl.rcParams["axes.facecolor"] == mpl.rcParamsDefault["axes.facecolor"]
+            assert not mpl.rcParams["text.usetex"]
+        assert mpl.rcParams["font.size"] == STRANGE["font.size"]
+
+
+def test_a_films_frames_are_the_same_under_any_style(record):
+    plain = Panel(record, 240, 180, note="a note").frame(2.5)
+    with mpl.rc_context(STRANGE):
+        assert np.array_equal(Panel(record, 240, 180, note="a note").frame(2.5), plain)

@@ -56,6 +56,12 @@ def test_a_film_holds_all_its_frames_and_replaces_an_old_file(tmp_path):
     assert os.listdir(tmp_path) == ["film.mp4"]
 
 
+def test_a_name_may_be_as_long_as_a_name_can_be(tmp_path):
+    path = tmp_path / f"{'é' * 125}.mp4"  # 254 bytes
+    write_mp4(noise(2), path, 25)
+    assert os.listdir(tmp_path) == [path.name]
+
+
 def test_files_get_the_rights_that_the_user_gives(tmp_path):
     before = os.umask(0o027)
     try:

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Final
 
-import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from arm2d import Condition
-from arm2d.drawing import INK
+from arm2d.drawing import INK, look
 from evolution.figures.page import FAINT, STYLE
 from evolution.figures.paper import TITLES
 from evolution.study.declared.factors import FACTORS
@@ -32,7 +31,7 @@ def levels_figure(models: Mapping[Condition, Sequence[Model]], title: str) -> Fi
     rows = _rows()
     outcomes = [model.outcome for model in next(iter(models.values()))]
     height = 1.6 + ROW_HEIGHT * (rows[-1][2] + 1)
-    with mpl.rc_context(STYLE):
+    with look(STYLE):
         figure = Figure(figsize=(2.6 + 1.75 * len(outcomes), height), layout="constrained")
         panels = figure.subplots(1, len(outcomes), sharey=True, squeeze=False)[0]
         for column, axes in enumerate(panels):

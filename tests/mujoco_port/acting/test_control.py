@@ -132,8 +132,8 @@ def test_torque_never_exceeds_the_motors_limit(lab):
     body.refuse_unstable()
 
 
-def test_simulation_that_blows_up_is_told_and_a_new_start_is_a_new_trial(lab, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)  # MuJoCo writes a log where it is
+def test_simulation_that_blows_up_is_told_and_a_new_start_is_a_new_trial(lab, tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)  # where MuJoCo would write a log
     body, away = lab.body, np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]])
     body.start(lab.kinematics.rest, away)
     body.data.qvel[:] = np.nan
@@ -142,6 +142,8 @@ def test_simulation_that_blows_up_is_told_and_a_new_start_is_a_new_trial(lab, tm
         body.refuse_unstable()
     body.start(lab.kinematics.rest, away)
     body.refuse_unstable()
+    assert list(tmp_path.iterdir()) == []
+    assert capfd.readouterr() == ("", "")
 
 
 @pytest.mark.parametrize(

@@ -121,6 +121,13 @@ def test_a_chosen_back_end_that_does_not_draw_is_missing():
     assert found["MUJOCO_GL"][2] == "unset MUJOCO_GL"
 
 
+def test_a_back_end_that_does_not_exist_is_not_blamed_on_mujoco():
+    code, lines = doctor(MUJOCO_GL="nonsense")
+    assert code == 1
+    assert line_of(lines, "mujoco")[0].split()[0] == "ok"
+    assert line_of(lines, "MUJOCO_GL")[1] == ["unset MUJOCO_GL"]
+
+
 def test_osmesa_alone_is_enough(tmp_path):
     """Where OSMesa is installed; WORDARM_TEST_OSMESA may name a folder that holds its library."""
     folder = os.environ.get("WORDARM_TEST_OSMESA", "")
