@@ -80,16 +80,16 @@ class MindPanel:
         self._shown: tuple[int, bool] | None = None
         self._picture = np.empty(0, np.uint8)
 
-    @look()
     def frame(self, step: float) -> NDArray[np.uint8]:
         """The picture after `step` steps; what changes with a control step is drawn anew with it."""
         ended, last = step >= self._end, len(self._mind.share) - 1
         key = last if ended else min(int(step + 1e-9), last), ended
         if key != self._shown:
-            self._show(*key)
-            self._canvas.restore_region(self._background)
-            for artist in self._moving:
-                self._axes.draw_artist(artist)
+            with look():
+                self._show(*key)
+                self._canvas.restore_region(self._background)
+                for artist in self._moving:
+                    self._axes.draw_artist(artist)
             self._picture = np.asarray(self._canvas.buffer_rgba())[..., :3].copy()
             self._shown = key
         return self._picture
