@@ -5,8 +5,10 @@ import multiprocessing
 import numpy as np
 import pytest
 
-from arm2d import Instruction, Readings
-from mujoco_port.acting.agreement import Candidate, Outcome, jobs, outcomes
+from arm2d import Instruction, Readings, run_trials
+from mujoco_port.acting import agreement
+from mujoco_port.acting.agreement import Candidate, Outcome, carry_out_job, jobs, outcomes
+from mujoco_port.acting.camera import CameraEyes
 from mujoco_port.acting.tally import tally
 
 
@@ -84,3 +86,43 @@ def test_agreement_is_the_part_of_the_2d_successes_that_the_robot_shares():
     assert (counts.trials, counts.planar, counts.physical, counts.both) == (5, 3, 3, 2)
     assert counts.agreement == pytest.approx(2 / 3)
     assert np.isfinite(tally([row(0, 0)]).agreement)
+
+
+@pytest.fixture
+def robot_of_this_process():
+    agreement._move_in("icub")
+    yield agreement
+    for eyes in agreement._eyes.values():
+        eyes.close()
+    agreement._eyes.clear()
+    agreement._lab = None
+
+
+def test_each_loop_is_what_it_is_called(robot_of_this_process, lab, evolved_agent):
+    """The same trials by hand: answered at once, a step late, by the robot's body, by its camera."""
+    candidate = Candidate("evolved", evolved_agent, (Instruction.parse("move red"),), Readings())
+    found, by_hand = {}, {}
+    with CameraEyes(lab.body) as eyes:
+        for loop in ("open", "delayed", "geometric", "camera"):
+            first, *_ = jobs([candidate], (loop,), 1, seed=4)
+            done = carry_out_job(first)
+            assert (loop == "camera") == bool(robot_of_this_process._eyes)  # not opened before it is needed
+            trial = evolved_agent, first.trial, Readings()
+            _, verdict = {
+                "open": lambda trial=trial: lab.open_loop(*trial),
+                "delayed": lambda trial=trial: lab.open_loop(*trial, 1),
+                "geometric": lambda trial=trial: lab.closed_loop(*trial),
+                "camera": lambda trial=trial: lab.closed_loop(*trial, eyes),
+            }[loop]()
+            found[loop] = done.physical, done.progress, done.reason
+            by_hand[loop] = (
+                verdict.success,
+                round(verdict.progress, 2),
+                "" if verdict.success else verdict.reason,
+            )
+            assert done.planar == run_trials(evolved_agent, first.trial, Readings()).success[0, 0]
+    assert found == by_hand
+    assert len({progress for _, progress, _ in found.values()}) >= 3
+    before = dict(robot_of_this_process._eyes)
+    carry_out_job(first)
+    assert robot_of_this_process._eyes == before  # opened once
