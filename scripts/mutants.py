@@ -245,7 +245,7 @@ def row_of(path: str, source: bytes, fault: Fault) -> Row:
     )
 
 
-def tests_of(path: str) -> tuple[str, ...]:
+def witnesses_of(path: str) -> tuple[str, ...]:
     """The tests that concern a module."""
     return next(tests for pattern, tests in TESTS.items() if Path(path).match(pattern))
 
@@ -280,7 +280,7 @@ class Attempts:
             return
         copy = self._free.get()
         try:
-            self._keep(mutant.row, *copy.attempt(mutant, tests_of(mutant.row.path)))
+            self._keep(mutant.row, *copy.attempt(mutant, witnesses_of(mutant.row.path)))
         finally:
             self._free.put(copy)
 
