@@ -3,11 +3,12 @@
 VENV ?= .venv
 DEMO ?= demo
 DEMO_SEED ?= 13
+FAULTS ?= 200
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo reproduce test lint audit format bench clean
+.PHONY: help setup demo reproduce test mutants lint audit format bench clean
 
 help:  ## what there is to make
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -27,6 +28,9 @@ reproduce: $(READY)  ## the whole paper, from random genotypes to the report in 
 test: $(READY)  ## all tests, on all cores
 	@sh scripts/browser.sh
 	$(BIN)/python -m pytest -n auto --dist worksteal
+
+mutants: $(READY)  ## small faults put into a copy of the sources: which does no test notice?
+	$(BIN)/python -m scripts.mutants --number $(FAULTS) --output mutants.csv
 
 lint: $(READY)  ## style, types, and who imports whom
 	$(BIN)/ruff check .

@@ -6,6 +6,7 @@ observed once is read. Axes: A agents of a run, 9 instructions, W windows, E eve
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Final
@@ -21,7 +22,7 @@ from evolution.agents.postevaluation import N_INSTRUCTIONS, POST_EVALUATION
 from evolution.agents.subtasks import AgentClass, classify
 from evolution.agents.variance import WINDOWS, VarianceShares, bin_times, shares_by_event
 from evolution.runs.folder import RunFolder
-from evolution.runs.history import check_array
+from evolution.runs.history import check_array, check_range
 from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.settings import N_BEST
 
@@ -130,15 +131,23 @@ def read_observation(run: RunFolder, sampling: Sampling = Sampling()) -> Observa
         raise ValueError(f"{path} is missing; go on with: {next_move}")
     try:
         arrays = run.read_arrays(path)
-        n = len(arrays.get("ranks", ()))
-        shapes = {"generations": (n,), "ranks": (n,), "classes": (n,), "members": (len(CLASSES),)}
-        for name, shape in shapes.items():
-            check_array(path, arrays, name, shape, np.dtype(np.int64))
-        for name, shape in zip(("intact", "lesioned", "windows", "shares"), _shapes(), strict=True):
-            check_array(path, arrays, name, (n, *shape), np.dtype(np.float64))
+        _check(path, arrays, run.config.settings.generations)
     except DamagedFileError as error:
         raise DamagedFileError(path, error.found, f"remove it and repeat: {next_move}") from None
     return Observation(*(arrays[field.name] for field in fields(Observation)))
+
+
+def _check(path: Path, arrays: Mapping[str, NDArray], n_generations: int) -> None:
+    """Refuse arrays that no observation of a run of so many generations gives."""
+    n = len(arrays.get("ranks", ()))
+    shapes = {"generations": (n,), "ranks": (n,), "classes": (n,), "members": (len(CLASSES),)}
+    for name, shape in shapes.items():
+        check_array(path, arrays, name, shape, np.dtype(np.int64))
+    for name, shape in zip(("intact", "lesioned", "windows", "shares"), _shapes(), strict=True):
+        check_array(path, arrays, name, (n, *shape), np.dtype(np.float64))
+    highest = {"generations": n_generations - 1, "ranks": N_BEST - 1, "classes": len(CLASSES) - 1}
+    for name, high in {**highest, "members": N_BEST * n_generations, "intact": 1, "lesioned": 1}.items():
+        check_range(path, arrays, name, 0, high)
 
 
 def choose(members: NDArray[np.bool_], genotypes: NDArray[np.float64], most: int) -> list[tuple[int, int]]:

@@ -16,7 +16,7 @@ from evolution.agents.parts import best_genotypes, late_spans
 from evolution.agents.subtasks import AgentClass, classify
 from evolution.agents.transitions import action_transitions, object_transitions, passes, transition_successes
 from evolution.runs.folder import RunFolder
-from evolution.runs.history import check_array
+from evolution.runs.history import check_array, check_range
 from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.randomness import Purpose, generator
 from evolution.study.measures import SAMPLE_STEP, RunMeasures
@@ -41,6 +41,7 @@ def passed_transitions(folder: RunFolder, measures: RunMeasures) -> NDArray[np.i
         try:
             arrays = folder.read_arrays(path)
             check_array(path, arrays, "passed", (len(CLASSES), len(TESTS)), np.dtype(np.int32))
+            check_range(path, arrays, "passed", 0, measures.successes[..., 0, 0].size)
         except DamagedFileError as error:
             raise DamagedFileError(path, error.found, "remove it and repeat the command") from None
         return arrays["passed"]

@@ -21,7 +21,7 @@ from evolution.agents.subtasks import AgentClass, categories, classify
 from evolution.results.analysis import PLATEAU_SHARE
 from evolution.results.records import ends_at_largest
 from evolution.runs.folder import RunFolder
-from evolution.runs.history import History, check_array
+from evolution.runs.history import History, check_array, check_range
 from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
@@ -142,6 +142,7 @@ def _late_successes(folder: RunFolder) -> NDArray[np.int16]:
         try:
             arrays = folder.read_arrays(path)
             check_array(path, arrays, "successes", shape, np.dtype(np.int16))
+            check_range(path, arrays, "successes", 0, TRIALS_PER_AREA)
         except DamagedFileError as error:
             raise DamagedFileError(path, error.found, "remove it and repeat the command") from None
         return arrays["successes"]

@@ -1,9 +1,11 @@
 """Genes and parameters (spec section 6)."""
 
+from dataclasses import fields, replace
+
 import numpy as np
 import pytest
 
-from arm2d import Readings, check_genotypes, decode, encode
+from arm2d import Networks, Readings, check_genotypes, decode, encode
 
 
 def test_genes_at_the_bounds_give_the_printed_ranges():
@@ -70,3 +72,28 @@ def test_readings_of_tau_and_bias_change_their_ranges_only():
 def test_unsound_genotype_is_refused(genotypes, message):
     with pytest.raises(ValueError, match=message):
         check_genotypes(genotypes)
+
+
+@pytest.mark.parametrize("name", [each.name for each in fields(Networks)])
+@pytest.mark.parametrize("bound", [0.0, 1.0])
+def test_parameter_out_of_its_genes_range_is_refused_and_never_clipped(name, bound):
+    """A gene 1 % of its range out; what rounding adds at the bound is taken away."""
+    at_bound = decode(np.full((1, 84), bound), Readings())
+    np.testing.assert_array_equal(encode(at_bound, Readings()), bound)
+    low, high = (getattr(decode(np.full((1, 84), gene), Readings()), name) for gene in (0.0, 1.0))
+    out = 1.01 * bound - 0.01 * (1.0 - bound)
+    beyond = low * (high / low) ** out if name == "decay_constants" else low + out * (high - low)
+    with pytest.raises(ValueError, match=rf"gene \d+ of genotype 0 is {out:g}; genes lie in \[0, 1\]"):
+        encode(replace(at_bound, **{name: beyond}), Readings())
+
+
+@pytest.mark.parametrize("gene", [0, 53, 77, 83])
+def test_genes_are_taken_up_to_their_bounds_and_not_beyond(gene):
+    for value, sound in ((0.0, True), (1.0, True), (-1e-15, False), (np.nextafter(1.0, 2.0), False)):
+        genotype = np.full(84, 0.5)
+        genotype[gene] = value
+        if sound:
+            assert check_genotypes(genotype)[0, gene] == value
+        else:
+            with pytest.raises(ValueError, match=f"gene {gene} of genotype 0"):
+                check_genotypes(genotype)

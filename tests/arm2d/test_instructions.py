@@ -3,6 +3,7 @@
 import pytest
 
 from arm2d import NON_EXPERIENCED, ActionWord, Condition, Instruction, ObjectWord
+from arm2d.instructions import ACTION_CODES, OBJECT_CODES
 
 
 @pytest.mark.parametrize("text", ["touch green", "TOUCH Green", "  Touch   GREEN "])
@@ -52,3 +53,33 @@ def test_unknown_condition_lists_the_known_ones():
         ValueError, match="unknown condition 'with-grasp'; there are with-indicate, with-ignore"
     ):
         Condition.parse("with-grasp")
+
+
+def test_words_are_heard_as_the_paper_writes_them():
+    """Spec section 4; two of three bits are on in each, and only INDICATE and IGNORE sound alike."""
+    objects = {word.name: "".join(map(str, code)) for word, code in OBJECT_CODES.items()}
+    actions = {word.name: "".join(map(str, code)) for word, code in ACTION_CODES.items()}
+    assert objects == {"BLUE": "110", "GREEN": "101", "RED": "011"}
+    assert actions == {"MOVE": "011", "TOUCH": "101", "INDICATE": "110", "IGNORE": "110"}
+
+
+def test_codes_of_words_are_those_of_files_written_long_ago():
+    assert [word.name for word in sorted(ActionWord)] == ["MOVE", "TOUCH", "INDICATE", "IGNORE"]
+    assert [word.name for word in sorted(ObjectWord)] == ["BLUE", "GREEN", "RED"]
+    assert [*map(int, ActionWord), *map(int, ObjectWord)] == [0, 1, 2, 3, 0, 1, 2]
+
+
+def test_never_met_are_touch_green_and_move_blue_alone():
+    assert {str(each) for each in NON_EXPERIENCED} == {"TOUCH Green", "MOVE Blue"}
+
+
+def test_instructions_come_action_by_action_in_the_order_of_their_codes():
+    for condition, third in ((Condition.WITH_INDICATE, "INDICATE"), (Condition.WITH_IGNORE, "IGNORE")):
+        said = [str(each) for each in condition.instructions]
+        assert said == [f"{a} {o}" for a in ("MOVE", "TOUCH", third) for o in ("Blue", "Green", "Red")]
+        assert sorted(condition.instructions) == list(condition.instructions)
+
+
+def test_instruction_shows_how_it_can_be_made():
+    for instruction in Condition.WITH_IGNORE.instructions:
+        assert repr(instruction) == f"Instruction.parse({str(instruction).lower()!r})"

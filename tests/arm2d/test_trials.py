@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from arm2d import Condition, Readings, Trials, draw_trials
+from arm2d import Condition, LabelChanges, Readings, Trials, draw_trials
 
 INSTRUCTIONS = Condition.WITH_INDICATE.instructions
 
@@ -92,3 +92,76 @@ def test_unsound_trials_are_refused(change, message):
 def test_no_trials_at_all_is_refused():
     with pytest.raises(ValueError, match="asked for 0 trials per area of 9 instructions"):
         draw(per_area=0)
+
+
+def changes(**values):
+    """Words of one trial that change, one array being another."""
+    sound = dict.fromkeys(("first_actions", "first_objects", "later_actions", "later_objects", "delays"), 0)
+    return LabelChanges(**{name: np.array([value]) for name, value in {**sound, **values}.items()})
+
+
+@pytest.mark.parametrize(
+    ("name", "highest"),
+    [
+        ("first_actions", 3),
+        ("first_objects", 2),
+        ("later_actions", 3),
+        ("later_objects", 2),
+        ("delays", 250),
+    ],
+)
+def test_changes_of_words_are_taken_up_to_their_bounds_and_not_beyond(name, highest):
+    for value in (0, highest):
+        assert getattr(changes(**{name: value}), name).tolist() == [value]
+    for value in (-1, highest + 1):
+        with pytest.raises(
+            ValueError, match=f"{name} holds {value} to {value}; the codes are 0 to {highest}"
+        ):
+            changes(**{name: value})
+
+
+def start(**values):
+    """A trial that starts in the middle with discs far away, one array being another."""
+    far = np.array([[[120.0, 0.0], [0.0, 120.0], [-120.0, 0.0]]])
+    sound = {"actions": np.array([0]), "objects": np.array([0]), "alpha": np.array([90.0]), "discs": far}
+    return Trials(**{**sound, **values})
+
+
+@pytest.mark.parametrize(("name", "highest"), [("actions", 3), ("objects", 2)])
+def test_instructions_are_taken_up_to_their_bounds_and_not_beyond(name, highest):
+    for value in (0, highest):
+        assert getattr(start(**{name: np.array([value])}), name).tolist() == [value]
+    for value in (-1, highest + 1):
+        with pytest.raises(ValueError, match=f"{name} holds {value} to {value}"):
+            start(**{name: np.array([value])})
+
+
+def test_start_angles_are_taken_up_to_their_bounds_and_not_beyond():
+    for alpha in (-30.0, 210.0):
+        assert start(alpha=np.array([alpha])).alpha.tolist() == [alpha]
+    for alpha in (np.nextafter(-30.0, -90.0), np.nextafter(210.0, 270.0)):
+        with pytest.raises(ValueError, match="alpha must lie in"):
+            start(alpha=np.array([alpha]))
+
+
+@pytest.mark.parametrize("disc", range(3))
+@pytest.mark.parametrize("bearing", [0.0, 37.0, 180.0, 270.0])
+def test_discs_are_taken_from_where_s2_can_be_and_not_nearer(disc, bearing):
+    direction = np.array([np.cos(np.radians(bearing)), np.sin(np.radians(bearing))])
+    discs = start().discs.copy()
+    discs[0, disc] = 100.001 * direction
+    assert len(start(discs=discs)) == 1
+    for distance in (99.999, 75.0, 51.0, 1.0):
+        discs[0, disc] = distance * direction
+        with pytest.raises(ValueError, match="a disc's centre lies within 100 cm of J1"):
+            start(discs=discs)
+
+
+def test_number_of_changes_is_that_of_the_trials():
+    with pytest.raises(ValueError, match="1 trials need as many label changes, not 2"):
+        start(changes=LabelChanges(*(np.zeros(2, np.int64) for _ in range(5))))
+
+
+def test_so_many_trials_that_no_memory_holds_them_are_refused():
+    with pytest.raises(ValueError, match="asked for 100001 trials per area; at most 100000 fit"):
+        draw(per_area=100_001)

@@ -93,6 +93,31 @@ def test_damaged_observation_is_named_with_the_command_that_repeats_it(classed):
         observe(classed, TINY)
 
 
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("generations", (-1, 230)),
+        ("ranks", (-1, 5)),
+        ("classes", (-1, 3)),
+        ("members", (-1, 1151)),
+        ("intact", (-1e-9, 1.0 + 1e-9, np.nan)),
+        ("lesioned", (-1e-9, 1.0 + 1e-9, np.nan)),
+    ],
+)
+def test_impossible_observations_are_noticed_whatever_their_checksum_says(classed, name, values):
+    observe(classed, TINY)
+    path = observation_path(classed, TINY)
+    for value in values:
+        arrays = classed.read_arrays(path)
+        before = arrays[name].copy()
+        arrays[name].reshape(-1)[-1] = value
+        classed.write_arrays(path, arrays)
+        with pytest.raises(DamagedFileError, match=rf"its {name} are not all in \[0, .*remove it and repeat"):
+            observe(classed, TINY)
+        classed.write_arrays(path, {**arrays, name: before})
+    observe(classed, TINY)
+
+
 def test_the_run_is_the_unit_however_many_agents_it_has(finished_run):
     run = RunFolder.open(finished_run)
     many, one = observation(AgentClass.FULL, [1.0] * 9), observation(AgentClass.FULL, [0.0])

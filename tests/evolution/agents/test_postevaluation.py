@@ -1,6 +1,7 @@
 """Post-evaluation, transition tests and analysis of a short experiment."""
 
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,7 +11,12 @@ from evolution.agents import solving
 from evolution.agents.parts import late_spans
 from evolution.agents.postevaluation import POST_EVALUATION, post_evaluate, successes_by_area
 from evolution.agents.solving import solved_trials
-from evolution.agents.transitions import TRANSITION_TEST, run_transition_test
+from evolution.agents.transitions import (
+    TRANSITION_TEST,
+    action_transitions,
+    object_transitions,
+    run_transition_test,
+)
 from evolution.cli import main, parse
 from evolution.experiments.experiment import open_experiment
 from evolution.results.analysis import analyse
@@ -217,12 +223,42 @@ def test_damaged_tests_are_repaired_with_the_bits_they_had(experiment, tmp_path)
     ]  # fmt: skip
 
 
+def with_last(arrays, name, value):
+    """The arrays with another last number in one of them."""
+    changed = arrays[name].copy()
+    changed.reshape(-1)[-1] = value
+    return {**arrays, name: changed}
+
+
 def test_numbers_no_test_can_give_are_damage_even_with_a_fitting_checksum(experiment, tmp_path):
     run = open_experiment(experiment).all_runs[0]
     copy = RunFolder.open(shutil.copytree(run.path, tmp_path / "copy"))
     span = late_spans(copy)[0]
-    arrays = copy.read_arrays(POST_EVALUATION.path(copy, span))
-    arrays["successes"][0, 0, 0] = 81
-    copy.write_arrays(POST_EVALUATION.path(copy, span), arrays)
-    with pytest.raises(DamagedFileError, match=r"its successes are not all in \[0, 80\]"):
-        POST_EVALUATION.read(copy)
+    path = POST_EVALUATION.path(copy, span)
+    arrays = copy.read_arrays(path)
+    beyond = {"generations": (span.start - 1, span.stop), "successes": (-1, 81)}
+    for name, values in beyond.items():
+        for value in values:
+            copy.write_arrays(path, with_last(arrays, name, value))
+            with pytest.raises(DamagedFileError, match=rf"its {name} are not all in \["):
+                POST_EVALUATION.read(copy)
+
+
+def test_transitions_no_agent_can_pass_are_damage(experiment):
+    """One made-up agent: at each bound, and just beyond."""
+    run, path = open_experiment(experiment).all_runs[0], Path("transitions.npz")
+    span, condition = late_spans(run)[0], run.config.condition
+    sound = {
+        "generations": np.array([span.start], np.int32),
+        "ranks": np.zeros(1, np.int8),
+        "classes": np.zeros(1, np.int8),
+        "action": np.zeros((1, len(action_transitions(condition))), np.int16),
+        "object": np.zeros((1, len(object_transitions(condition))), np.int16),
+    }
+    bounds = {"generations": (span.start, span.stop - 1), "ranks": (0, 4), "classes": (0, 2)}
+    for name, (low, high) in {**bounds, "action": (0, 80), "object": (0, 80)}.items():
+        for value in (low, high):
+            TRANSITION_TEST.check(path, with_last(sound, name, value), run, span)
+        for value in (low - 1, high + 1):
+            with pytest.raises(DamagedFileError, match=rf"its {name} are not all in \["):
+                TRANSITION_TEST.check(path, with_last(sound, name, value), run, span)

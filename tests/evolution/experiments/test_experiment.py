@@ -18,7 +18,7 @@ from evolution.experiments.live_table import plain_lines, run_table
 from evolution.experiments.plan import Plan
 from evolution.experiments.plan_runner import PlanWatch
 from evolution.experiments.standing import Pace, Standing
-from evolution.runs.run import evolve
+from evolution.runs.run import Watcher, evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
@@ -88,6 +88,23 @@ def test_a_finished_experiment_returns_at_once_and_starts_no_process(done, file,
     assert main(["experiment", str(file), f"--output={folder}"]) == 0
     assert {each: each.stat().st_mtime_ns for each in before} == before
     assert capsys.readouterr().out == f"4 of 4 runs are done: {folder}\n"
+
+
+@pytest.mark.slow
+def test_a_run_that_was_given_up_is_named_and_is_no_success(file, tmp_path, capsys):
+    """The only part of one run is cut short; the other run goes on to its end."""
+    file.write_text(FILE.replace("[5, 8]", "5"))
+    damaged = tmp_path / "out" / "with-indicate" / "seed-0001"
+    stop = iter([False] * 110 + [True] * 2)
+    assert evolve(damaged, RunConfig(seed=1, settings=SMALL), Watcher(wants_stop=stop.__next__)) == 110
+    (part,) = damaged.glob("parts/*")
+    part.write_bytes(part.read_bytes()[:-9])
+    assert main(["experiment", str(file), f"--output={tmp_path / 'out'}"]) == 2
+    said = capsys.readouterr().out
+    assert "with-indicate, seed 1, given up while evolving: " in said
+    assert f"wordarm verify {damaged} --repair" in said
+    assert f"1 of 2 runs are done: {tmp_path / 'out'}" in said
+    assert (tmp_path / "out" / "with-indicate" / "seed-0002" / "champions.npz").exists()
 
 
 @pytest.mark.slow

@@ -1,7 +1,9 @@
 import shutil
 
+import numpy as np
 import pytest
 
+from evolution.runs.checkpoint import load_checkpoint
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.run import Watcher, evolve
@@ -158,6 +160,52 @@ def test_a_part_of_another_shape_is_noticed(run_copy, change, sentence):
     write_arrays(path, arrays)
     with pytest.raises(DamagedFileError, match=sentence):
         RunFolder.open(run_copy).read_part(range(100, 200))
+
+
+BEYOND = {
+    **dict.fromkeys(("fitness", "best", "mean", "median", "worst"), (-1e-9, 3.0 + 1e-9, np.nan, np.inf)),
+    "parents": (-2, 10),
+    "best_genotypes": (-1e-9, 1.0 + 1e-9, np.nan),
+}
+NEXT_BEYOND = {
+    "generation": (-1, 231),
+    "next_parents": (-2, 10),
+    "next_genotypes": (-1e-9, 1.0 + 1e-9, np.nan),
+}
+
+
+def cases_of(beyond):
+    return [(name, value) for name, values in beyond.items() for value in values]
+
+
+def put(path, name, value):
+    """One number of an array becomes another, and the checksum fits."""
+    arrays = read_arrays(path)
+    arrays[name] = arrays[name].copy()
+    arrays[name].reshape(-1)[-1] = value
+    write_arrays(path, arrays)
+
+
+@pytest.mark.parametrize(("name", "value"), cases_of(BEYOND))
+def test_a_part_with_an_impossible_value_is_noticed_whatever_its_checksum_says(run_copy, name, value):
+    put(run_copy / "parts" / SECOND, name, value)
+    with pytest.raises(DamagedFileError, match=rf"its {name} are not all in \["):
+        RunFolder.open(run_copy).read_part(range(100, 200))
+
+
+@pytest.mark.parametrize(("name", "value"), cases_of(NEXT_BEYOND))
+def test_a_checkpoint_with_an_impossible_value_is_noticed_too(run_copy, name, value):
+    put(run_copy / "checkpoint.npz", name, value)
+    with pytest.raises(DamagedFileError, match=rf"its {name} are not all in \["):
+        load_checkpoint(RunFolder.open(run_copy))
+
+
+def test_values_at_their_bounds_are_no_damage(run_copy):
+    folder, span = RunFolder.open(run_copy), range(100, 200)
+    for name, values in {"fitness": (0.0, 3.0), "parents": (-1, 9), "best_genotypes": (0.0, 1.0)}.items():
+        for value in values:
+            put(run_copy / "parts" / SECOND, name, value)
+            assert getattr(folder.read_part(span), name).reshape(-1)[-1] == value
 
 
 @pytest.mark.parametrize("text", ["", "seed = ", "\x00\xff", "format = 1"])

@@ -87,6 +87,32 @@ def test_a_lease_dated_in_the_future_is_judged_by_whether_it_moves(holder, tmp_p
         assert json.loads((tmp_path / LEASE).read_text())["process"] == os.getpid()
 
 
+class Clock:
+    """The clock of this machine, so many seconds off; that of the file server is right."""
+
+    def __init__(self, off):
+        self._off = off
+
+    def time(self):
+        return time.time() + self._off
+
+    def __getattr__(self, name):
+        return getattr(time, name)
+
+
+@pytest.mark.parametrize("hours", [-6, 6])
+def test_a_clock_hours_off_neither_takes_over_the_living_nor_waits_for_the_dead(hours, tmp_path, monkeypatch):
+    monkeypatch.setattr(lease, "time", Clock(3600 * hours))
+    leave(tmp_path, age=LAPSE - 5)
+    before = (tmp_path / LEASE).stat().st_mtime
+    with pytest.raises(RunInUseError, match="process 7 on node12"), locked(tmp_path):
+        pass
+    assert (tmp_path / LEASE).stat().st_mtime == before  # nor is it dated anew
+    leave(tmp_path, age=LAPSE + 5)
+    with locked(tmp_path):
+        assert json.loads((tmp_path / LEASE).read_text())["process"] == os.getpid()
+
+
 def holder_process(folder, renewal=15.0):
     """A real process that holds a folder, and has said so."""
     code = (

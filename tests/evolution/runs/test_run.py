@@ -127,6 +127,7 @@ def test_meta_tells_each_start_and_end(tmp_path):
     starts = json.loads((tmp_path / "run" / "meta.json").read_text())["starts"]
     assert [each["first_generation"] for each in starts] == [0, 11]
     assert [each["next_generation"] for each in starts] == [11, 21]
+    assert all(each["started"] <= each["ended"] and each["cpu_seconds"] >= 0.0 for each in starts)
     assert {"started", "ended", "versions", "revision", "machine"} <= starts[0].keys()
 
 

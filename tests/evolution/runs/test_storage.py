@@ -66,6 +66,20 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path, monkeypat
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_what_is_written_and_then_its_folder_reach_the_disk(tmp_path, monkeypatch):
+    """Without the first flush a power cut may leave an empty file, without the second the old one."""
+    path, flushed, flush = tmp_path / "file", [], os.fsync
+    path.write_bytes(b"old")
+
+    def spy(handle):
+        flushed.append((os.path.realpath(f"/proc/self/fd/{handle}"), path.read_bytes()))
+        flush(handle)
+
+    monkeypatch.setattr(storage.os, "fsync", spy)
+    write_atomically(path, b"new")
+    assert flushed == [(str(tmp_path / ".file.tmp"), b"old"), (str(tmp_path), b"new")]
+
+
 def test_objects_are_never_stored():
     with pytest.raises(ValueError, match="Object arrays cannot be saved"):
         pack_arrays({"object": np.array([{}])})

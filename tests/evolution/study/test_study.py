@@ -160,6 +160,13 @@ def test_measures_are_kept_and_damage_is_named(measured):
     file.write_bytes(before[:-30])
     with pytest.raises(DamagedFileError, match="remove it and repeat the command"):
         measure(run)
+    for value in (-1, 41):  # of 40 trials
+        file.write_bytes(before)
+        arrays = run.read_arrays(file)
+        arrays["successes"][-1, -1, -1, -1] = value
+        run.write_arrays(file, arrays)
+        with pytest.raises(DamagedFileError, match=r"its successes are not all in \[0, 40\]"):
+            measure(run)
     file.write_bytes(before)
 
 

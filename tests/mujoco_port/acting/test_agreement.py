@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from arm2d import Instruction, Readings
-from mujoco_port.acting.agreement import Candidate, Outcome, jobs, outcomes
+from mujoco_port.acting import agreement
+from mujoco_port.acting.agreement import Candidate, Outcome, carry_out_job, jobs, outcomes
+from mujoco_port.acting.camera import CameraEyes
 from mujoco_port.acting.tally import tally
 
 
@@ -84,3 +86,41 @@ def test_agreement_is_the_part_of_the_2d_successes_that_the_robot_shares():
     assert (counts.trials, counts.planar, counts.physical, counts.both) == (5, 3, 3, 2)
     assert counts.agreement == pytest.approx(2 / 3)
     assert np.isfinite(tally([row(0, 0)]).agreement)
+
+
+@pytest.fixture
+def asked_of_the_lab(monkeypatch):
+    """What is asked of the robot of this process: a word for the loop, the delay, the eyes."""
+    agreement._move_in("icub")
+    lab, asked = agreement._lab, []
+    open_loop, closed_loop = lab.open_loop, lab.closed_loop
+
+    def in_the_plane(genotype, trial, readings, delay=0):
+        asked.append(("open", delay, None))
+        return open_loop(genotype, trial, readings, delay)
+
+    def in_the_body(genotype, trial, readings, eyes=None):
+        asked.append(("closed", 0, eyes))
+        return closed_loop(genotype, trial, readings, eyes)
+
+    monkeypatch.setattr(lab, "open_loop", in_the_plane)
+    monkeypatch.setattr(lab, "closed_loop", in_the_body)
+    yield asked
+    for eyes in agreement._eyes.values():
+        eyes.close()
+    agreement._eyes.clear()
+    agreement._lab = None
+
+
+def test_each_loop_is_what_it_is_called_and_a_camera_is_opened_once(asked_of_the_lab, evolved_agent):
+    candidate = Candidate("evolved", evolved_agent, (Instruction.parse("move red"),), Readings())
+    done = []
+    for loop in ("open", "delayed", "geometric", "camera", "camera"):
+        done.append(carry_out_job(jobs([candidate], (loop,), 1, seed=4)[0]))
+        assert (loop == "camera") == bool(agreement._eyes)
+    *others, first, second = asked_of_the_lab
+    assert others == [("open", 0, None), ("open", 1, None), ("closed", 0, None)]
+    assert isinstance(first[2], CameraEyes)
+    assert first == second
+    assert [each.loop for each in done] == ["open", "delayed", "geometric", "camera", "camera"]
+    assert all(each.planar == each.physical == 1 and 34.4 < each.progress < 36.0 for each in done)

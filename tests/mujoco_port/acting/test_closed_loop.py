@@ -1,5 +1,7 @@
 """Closed loop: what the robot senses, and that agents live in it."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -8,7 +10,7 @@ from arm2d.geometry import camera_offsets
 from arm2d.reference import sense
 from evolution.runs.sources import find_agent
 from mujoco_port.acting.camera import CameraEyes
-from mujoco_port.acting.closed_loop import felt
+from mujoco_port.acting.closed_loop import ClosedLoop, felt
 from mujoco_port.acting.contacts import LEFT_SIDE, RIGHT_SIDE
 from mujoco_port.acting.eyes import geometric_eyes
 from mujoco_port.film.physical_port import start_of
@@ -43,6 +45,18 @@ def test_touch_is_felt_on_the_side_where_it_was_within_the_last_moments():
     contact[2, 0], contact[7, 2] = RIGHT_SIDE, LEFT_SIDE
     assert felt(contact) == ["right", None, "left"]
     assert felt(contact[:0]) == [None, None, None]
+
+
+@pytest.mark.parametrize(("ago_ms", "is_felt"), [(2, True), (14, True), (20, True), (22, False)])
+def test_touch_is_felt_for_twenty_milliseconds(standing, ago_ms, is_felt):
+    """An agent whose S1 turns left while its right touch sensor is on, 200 ms after its start."""
+    body, discs = standing
+    pilot = ClosedLoop(turns_by([0]), Instruction.parse("touch red"), 60.0, READINGS, body)
+    contact = np.zeros((100, 3), np.uint8)
+    contact[-ago_ms // 2, 2] = RIGHT_SIDE
+    alphas = [pilot.first()[1][0]]
+    alphas += [pilot.after(SimpleNamespace(contact=contact), discs)[0] for _ in range(10)]
+    assert (np.diff(alphas) > 0.0).any() == is_felt
 
 
 def test_geometric_eyes_see_objects_where_the_2d_world_has_them(standing):
@@ -132,8 +146,13 @@ def test_same_trial_is_repeated_to_the_last_bit(lab, evolved_agent):
 
 def turns_when_it_sees_red():
     """A genotype [84] whose S1 turns left as long as a red sensor of the camera is on, and S2 never."""
+    return turns_by([4, 7, 10])
+
+
+def turns_by(sensors):
+    """The same for any sensors, by their indices."""
     sensory, motor = np.zeros((1, 18, 3)), np.zeros((1, 3, 4))
-    sensory[0, [4, 7, 10], 0] = 8.0
+    sensory[0, sensors, 0] = 8.0
     motor[0, 0, 0] = 10.0
     networks = Networks(
         sensory_weights=sensory,

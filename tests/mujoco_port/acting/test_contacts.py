@@ -1,11 +1,15 @@
 """What the skin feels, and how the hand pushes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from arm2d import Instruction, Readings, draw_trials, record_trial
 from mujoco_port.acting.contacts import LEFT_SIDE, OBJECT, RIGHT_SIDE, ContactSensors
 from mujoco_port.acting.exertion import tracking_errors
+from mujoco_port.acting.lab import Lab
+from mujoco_port.acting.open_loop import OpenLoop
 from mujoco_port.film.physical_port import start_of
 from mujoco_port.reach.workspace import hand_headings, hand_targets
 
@@ -38,6 +42,58 @@ def test_object_that_comes_from_one_side_is_felt_by_that_side_first(lab, reached
     felt = [feel(lab, reached, ALPHA + direction * off)[1] for off in np.arange(30.0, 0.0, -0.25)]
     assert felt[0] == 0  # too far away
     assert next(bits for bits in felt if bits) == side
+
+
+@pytest.mark.parametrize("pressed", [0.5e-3, 2e-3])
+def test_hand_that_is_pressed_in_by_a_depth_reads_this_depth(lab, reached, pressed):
+    """The object is moved against the skin's normal, from where it hardly touches."""
+    skin, distance = ContactSensors(lab.body), float(np.hypot(*lab.kinematics.forward(reached).position[:2]))
+    for bearing in np.arange(ALPHA - 20.0, ALPHA, 0.01):
+        standing = places(lab, bearing, distance - 0.005)
+        lab.body.start(reached, standing)
+        touched, depth = skin.read()
+        if touched[1]:
+            break
+    assert depth < 0.1e-3
+    contacts = lab.body.data.contact
+    green = (contacts.geom == lab.body.model.geom("green").id).any(axis=1)
+    # Of the table, normals are upright.
+    (normal,) = (frame[:3] for frame in contacts.frame[green] if abs(frame[2]) < 0.9)
+    towards = normal[:2] * np.sign(normal[:2] @ (lab.body.hand[:2] - standing[1]))
+    standing[1] += pressed * towards / np.linalg.norm(towards)
+    lab.body.start(reached, standing)
+    assert skin.read()[1] == pytest.approx(depth + pressed, rel=0.05)
+    standing[1] -= 0.01 * towards
+    lab.body.start(reached, standing)
+    assert skin.read()[1] == 0.0
+
+
+def pushed_inwards_and_outwards(robot):
+    """How far [m] from its distance an object comes in and goes out while pushed by 60 degrees."""
+    lab, sweep = Lab(robot), [ALPHA + 10.0, *np.arange(ALPHA + 10.0, 45.0, -2.9)]
+    discs = np.array([[220.0, 215.0], [-39.0, 145.0], [-260.0, 100.0]])
+    orders = OpenLoop(iter([(alpha, 0.0) for alpha in sweep]))
+    record, _ = lab.carry_out(orders, Instruction.parse("move green"), discs, Readings(), to_the_end=True)
+    x, y = record.objects[:, 1, :2].T
+    bearing = np.degrees(np.arctan2(y, x))
+    assert bearing[0] - bearing[-1] > 55.0
+    away = np.hypot(x, y) - np.hypot(x[0], y[0])
+    return away.min(), away.max()
+
+
+def test_pushed_object_stays_with_the_hand(robot):
+    """It ends 12 mm further out; with a hand along its bearing that would be 16, to the left of it 19."""
+    inwards, outwards = pushed_inwards_and_outwards(robot)
+    assert inwards > -1e-3
+    assert outwards < 14e-3
+
+
+def test_pushed_object_does_not_roll_along_a_hand_that_is_not_square_to_its_way(robot):
+    """With fingers 24 degrees to the right it came in by 2 mm; without resistance to rolling by 14."""
+    askew = replace(robot, plane=replace(robot.plane, heading_lead=np.radians(24.0)))
+    inwards, outwards = pushed_inwards_and_outwards(askew)
+    assert inwards > -5e-3
+    assert outwards < 5e-3
 
 
 def test_objects_that_touch_each_other_are_told(lab, reached):

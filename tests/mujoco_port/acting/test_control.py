@@ -1,6 +1,7 @@
 """The robot's motors: the motion between control steps, feed-forward torques, tracking, limits."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import mujoco
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 
 from models.physics import NoPhysicsError, build_physics_model
 from mujoco_port.acting.control import UnstableError
-from mujoco_port.acting.exertion import exertion, tracking_errors
+from mujoco_port.acting.exertion import Exertion, exertion, tracking_errors
 from mujoco_port.acting.eyes import geometric_eyes
 from mujoco_port.acting.open_loop import planar_angles
 from mujoco_port.acting.rollout import carry_out
@@ -119,6 +120,24 @@ class _Orders:
     def after(self, *_):
         self._left -= 1
         return next(self._angles) if self._left >= 0 else None
+
+
+def test_exertion_is_told_in_parts_of_the_limits_and_the_larger_of_two_is_kept(kinematics, robot):
+    """Joint 0 at the top of its range, joint 1 at the bottom, joint 2 in the middle."""
+    limits, middle = robot.limits, (kinematics.lower + kinematics.upper) / 2
+    angles = np.tile(middle, (2, 1))
+    angles[0, 0], angles[1, 1] = kinematics.upper[0], kinematics.lower[1]
+    speeds, torques = np.zeros((2, 10)), np.zeros((2, 10))
+    speeds[1, 3], torques[0, 4] = -0.5 * limits.velocity[3], -0.25 * limits.torque[4]
+    used = exertion(SimpleNamespace(angles=angles, velocities=speeds, torques=torques), kinematics, limits)
+    np.testing.assert_allclose(used.position, [1.0, 1.0, *[0.0] * 8], atol=1e-12)
+    np.testing.assert_allclose(used.velocity, [0.0] * 3 + [0.5] + [0.0] * 6)
+    np.testing.assert_allclose(used.torque, [0.0] * 4 + [0.25] + [0.0] * 5)
+    ones, nothing = np.full(10, 0.75), np.zeros(10)
+    for both in (used.with_(Exertion(nothing, ones, nothing)), Exertion(nothing, ones, nothing).with_(used)):
+        np.testing.assert_array_equal(both.position, used.position)
+        np.testing.assert_array_equal(both.velocity, ones)
+        np.testing.assert_array_equal(both.torque, used.torque)
 
 
 def test_torque_never_exceeds_the_motors_limit(lab):

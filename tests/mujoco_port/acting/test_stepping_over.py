@@ -1,11 +1,15 @@
 """The hand stays above what lies below it, and low beside what it pushes."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from models.robots import get_robot
+from mujoco_port.acting.contacts import LEFT_SIDE, RIGHT_SIDE
+from mujoco_port.acting.rollout import above_objects
 from mujoco_port.acting.stepping_over import stepping_over
-from mujoco_port.reach.workspace import hand_headings, hand_height, on_table, tip_in_plane
+from mujoco_port.reach.workspace import hand_headings, hand_height, hand_targets, on_table, tip_in_plane
 
 HAND = np.array([0.1, 0.2])
 PRINT = get_robot("icub").plane.hand_print
@@ -57,3 +61,43 @@ def test_pushed_objects_of_all_trials_do_not_raise_the_hand(robot, champion_reco
             assert stepping_over(PRINT, tip[k], heading[k], disc[np.newaxis]) < 0.1
             seen += 1
     assert seen > 100
+
+
+HIGH, LOW = (90.0, 90.0), (90.0, 0.0)
+
+
+def below(plane, alpha, beta):
+    """The place [2] in [m] below the palm of a hand that is where S2 ends."""
+    heading = float(hand_headings(plane, alpha, beta))
+    return on_table(plane, tip_in_plane(alpha, beta)) + 0.03 * np.array([-np.sin(heading), np.cos(heading)])
+
+
+def above(lab, here, order, place, touched=0):
+    """How far a hand that stands at (alpha, beta) has to be above one object, touched 4 ms ago."""
+    plane, contact = lab.body.robot.plane, np.zeros((100, 3), np.uint8)
+    alpha, beta = np.array(here[0]), np.array(here[1])
+    angles = lab.kinematics.settle(hand_targets(plane, alpha, beta), float(hand_headings(plane, alpha, beta)))
+    objects = np.array([[0.40, 0.38], place, [-0.62, 0.38]])
+    lab.body.start(angles, objects)
+    contact[-2, 1] = touched
+    return above_objects(lab.body, objects, SimpleNamespace(contact=contact), order)
+
+
+def test_hand_stays_up_over_what_is_below_it_now_or_will_be(lab):
+    plane = lab.body.robot.plane
+    now, later, neither = below(plane, *HIGH), below(plane, 50.0, 30.0), np.array([0.35, 0.1])
+    assert above(lab, HIGH, HIGH, now) > 0.9
+    assert above(lab, HIGH, (50.0, 30.0), now) > 0.9
+    assert above(lab, HIGH, (50.0, 30.0), later) > 0.9
+    assert above(lab, HIGH, HIGH, later) == 0.0
+    assert above(lab, HIGH, (50.0, 30.0), neither) == 0.0
+
+
+def test_low_hand_pushes_what_it_will_meet(lab):
+    assert above(lab, LOW, (50.0, 30.0), below(lab.body.robot.plane, 50.0, 30.0)) == 0.0
+
+
+def test_what_is_pushed_does_not_count_and_what_is_touched_otherwise_does(lab):
+    now = below(lab.body.robot.plane, *HIGH)
+    assert above(lab, HIGH, HIGH, now, RIGHT_SIDE) == 0.0
+    assert above(lab, HIGH, HIGH, now, LEFT_SIDE) > 0.9

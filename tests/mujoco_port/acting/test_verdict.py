@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from arm2d import Instruction, Readings
 from mujoco_port.acting.contacts import ARM, LEFT_SIDE, OBJECT, RIGHT_SIDE
 from mujoco_port.acting.rollout import PhysicalRecord
-from mujoco_port.acting.verdict import closed, judge
+from mujoco_port.acting.verdict import bearings, closed, judge
 
 BLUE, GREEN, RED = 0, 1, 2
 TEN_SECONDS = 5000  # physics steps
@@ -100,6 +101,8 @@ def test_move_does_not_count_while_the_object_is_off_target_tilted_or_let_go():
     tilted = whole["places"].copy()
     tilted[500, BLUE, 3:] = np.cos(np.radians(6.0)), np.sin(np.radians(6.0)), 0.0, 0.0
     assert not judge(trial("move blue", n, **{**whole, "places": tilted}), READINGS).success
+    tilted[500, BLUE, 3:] = np.cos(np.radians(6.0)), 0.0, np.sin(np.radians(6.0)), 0.0
+    assert not judge(trial("move blue", n, **{**whole, "places": tilted}), READINGS).success
     gone = touching(BLUE, RIGHT_SIDE, n)
     gone[500:520] = 0
     assert not judge(trial("move blue", n, **{**whole, "contact": gone}), READINGS).success
@@ -137,3 +140,37 @@ def test_only_breaks_between_good_moments_are_closed():
     good = np.array([0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 0], bool)
     np.testing.assert_array_equal(closed(good, 2), np.array([0, 1, 1, 1, 1, 1, 0, 0, 0, 1, 0], bool))
     np.testing.assert_array_equal(closed(good, 0), good)
+
+
+def test_upright_is_the_cosine_of_the_tilt_whatever_the_turn():
+    """Held against the rotation that scipy makes of the quaternion."""
+    places = trial("move red", 50).places.copy()
+    turns = Rotation.random(150, rng=np.random.default_rng(0))
+    places[..., 3:] = np.roll(turns.as_quat(), 1, axis=-1).reshape(50, 3, 4)  # w comes first in MuJoCo
+    expected = turns.apply([0.0, 0.0, 1.0])[:, 2].reshape(50, 3)
+    np.testing.assert_allclose(trial("move red", 50, places=places).upright, expected, atol=1e-12)
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_target_is_met_just_inside_its_cone_on_either_side_and_not_outside(side):
+    """4.6 degrees."""
+    for off, met in ((4.5, True), (4.7, False)):
+        alpha = np.full(6000, 90.0 + side * off)
+        assert judge(trial("indicate green", alpha=alpha), READINGS).success == met
+        touch = trial("touch green", alpha=alpha, contact=touching(GREEN, RIGHT_SIDE))
+        assert judge(touch, READINGS).success == met
+
+
+def test_bearings_run_from_minus_90_over_the_left_bound_without_a_jump():
+    degrees = np.arange(-89.0, 269.0)
+    places = trial("move red", len(degrees)).places.copy()
+    places[:, RED, :2] = np.stack([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))], axis=-1)
+    found = bearings(trial("move red", len(degrees), places=places))
+    np.testing.assert_allclose(found[:, RED], degrees, atol=1e-9)
+    np.testing.assert_allclose(found[:, BLUE], 30.0, atol=1e-9)
+
+
+def test_fault_in_the_moment_of_success_is_a_failure():
+    contact = touching(GREEN, 0)
+    contact[TEN_SECONDS - 1, BLUE] = ARM
+    assert not judge(trial("indicate green", contact=contact), READINGS).success

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from models.build import build_model
-from mujoco_port.reach.workspace import hand_height, hand_targets, tip_in_plane
+from mujoco_port.reach.workspace import beta_of, hand_headings, hand_height, hand_targets, tip_in_plane
 
 
 @pytest.fixture(scope="module")
@@ -41,3 +41,24 @@ def test_map_is_a_scale_about_the_first_joint(robot):
 def test_lifted_hand_stands_higher_above_the_table_than_the_objects(robot):
     top = max(2.0 * build_model(robot).geom(name).size[1] for name in ("blue", "green", "red"))
     assert robot.plane.hand_height + robot.plane.lift > top
+
+
+@pytest.mark.parametrize("alpha", [-30.0, 90.0, 210.0])
+def test_hand_too_near_is_a_bent_arm_and_one_too_far_a_straight_one(robot, alpha):
+    """Beta ends at 90 and 0 degrees, wherever a joint's stop lets the hand go."""
+    straight, bent = hand_targets(robot.plane, np.full(2, alpha), np.array([0.0, 90.0]))
+    assert beta_of(robot.plane, straight * [1.02, 1.02, 1.0]) == 0.0
+    for share in (0.99, 0.9, 0.5):
+        assert beta_of(robot.plane, bent * [share, share, 1.0]) == pytest.approx(90.0, abs=1e-12)
+
+
+def test_hand_points_to_the_right_of_its_bearing_by_the_lead(robot):
+    """So that what its right side pushes is pushed along its own arc."""
+    alpha, beta = np.meshgrid(np.linspace(0.0, 150.0, 16), np.linspace(0.0, 90.0, 10))
+    x, y, _ = np.moveaxis(hand_targets(robot.plane, alpha, beta), -1, 0)
+    ahead = hand_headings(robot.plane, alpha, beta)
+    to_the_left = np.cos(ahead) * y - np.sin(ahead) * x  # of the fingers, where J1's ray is seen
+    within = (ahead > robot.plane.heading_range[0]) & (ahead < robot.plane.heading_range[1])
+    assert within.sum() > 120
+    lead = np.arcsin(to_the_left / np.hypot(x, y))[within]
+    np.testing.assert_allclose(lead, np.pi / 30, rtol=1e-9)

@@ -76,4 +76,11 @@ def test_damaged_transitions_are_named(run):
     path.write_bytes(before[:-20])
     with pytest.raises(DamagedFileError, match="remove it and repeat the command"):
         measured_run(run)
+    for value in (-1, 6):  # of the 5 agents that were sampled
+        path.write_bytes(before)
+        arrays = run.read_arrays(path)
+        arrays["passed"][-1, -1] = value
+        run.write_arrays(path, arrays)
+        with pytest.raises(DamagedFileError, match=r"its passed are not all in \[0, 5\]"):
+            measured_run(run)
     path.write_bytes(before)

@@ -1,0 +1,156 @@
+"""The faults of `make mutants`: what they are, where there are none, and that the tree is left alone."""
+
+import ast
+import subprocess
+
+import pytest
+
+from scripts import mutants
+from scripts.faults import faults_in
+from scripts.mutants import ROOT, Attempts, Copy, Mutant, all_mutants, name_of, row_of, summary, witnesses_of
+
+SOURCE = '''"""A number is 1 here."""
+from typing import TYPE_CHECKING
+if TYPE_CHECKING:
+    LIMIT = 1
+
+@decorated(3)
+def clipped(value, low: "int | None" = 0, strict: bool = False) -> int:
+    """Between 1 and 2."""
+    # λ stands before what is found by its bytes
+    if not strict and (value < low or value is None):
+        raise ValueError(f"{value + 1} is below {low - 1}")
+    total = max(value, -low)
+    total += 2.5
+    values[total] = 1
+    return total * 3
+'''
+TINY_TEST = """
+from arm2d.instructions import ActionWord
+
+
+def test_touch_is_one():
+    assert ActionWord.TOUCH == 1
+"""
+
+
+def changed(source):
+    """Every changed line, with what was done to it."""
+    for fault in faults_in(source.encode()):
+        text = fault.put_into(source.encode()).decode()
+        ast.parse(text)
+        before, after = source.splitlines(), text.splitlines()
+        assert before != after
+        if fault.kind != "early return":
+            yield fault.kind, next(line for line in after if line not in before).strip()
+
+
+def test_faults_are_those_of_arithmetic_of_logic_and_of_what_is_left_out():
+    assert set(changed(SOURCE)) == {
+        ("number plus one", 'def clipped(value, low: "int | None" = 1, strict: bool = False) -> int:'),
+        ("other truth value", 'def clipped(value, low: "int | None" = 0, strict: bool = True) -> int:'),
+        ("not dropped", "if  strict and (value < low or value is None):"),
+        ("or for and", "if not strict or (value < low or value is None):"),
+        ("and for or", "if not strict and (value < low and value is None):"),
+        ("other comparison", "if not strict and (value <= low or value is None):"),
+        ("other comparison", "if not strict and (value < low or value is not None):"),
+        ("condition negated", "if (not (not strict and (value < low or value is None))):"),
+        ("statement dropped", "pass"),
+        ("other function", "total = min(value, -low)"),
+        ("- dropped", "total = max(value, low)"),
+        ("other operator", "total -= 2.5"),
+        ("number plus one", "total += 3.5"),
+        ("number plus one", "values[total] = 2"),
+        ("other operator", "return total / 3"),
+        ("number plus one", "return total * 4"),
+    }  # fmt: skip
+
+
+def test_every_fault_of_every_module_is_python():
+    found = all_mutants()
+    assert len(found) > 5000
+    assert len({each.row.what for each in found}) == len(found)
+    for each in found[::40]:
+        ast.parse(each.fault.put_into((ROOT / each.row.path).read_bytes()))
+        assert each.row.before != each.row.after
+
+
+def test_tests_of_every_module_exist():
+    for path in {each.row.path for each in all_mutants()}:
+        for test in witnesses_of(path):
+            assert (ROOT / test).exists(), test
+
+
+@pytest.fixture
+def copy(tmp_path, monkeypatch):
+    """A copy whose only test is a tiny one."""
+    (tmp_path / "copy").mkdir(mode=0o700)
+    copy = Copy(tmp_path / "copy")
+    (tmp_path / "copy" / "tree" / "tests" / "test_tiny.py").write_text(TINY_TEST)
+    monkeypatch.setitem(mutants.TESTS, "arm2d/instructions.py", ("tests/test_tiny.py",))
+    return copy
+
+
+def mutants_in_line(line, kind):
+    """The faults of one kind in a line of the instructions."""
+    source = (ROOT / "arm2d" / "instructions.py").read_bytes()
+    rows = [(row_of("arm2d/instructions.py", source, fault), fault) for fault in faults_in(source)]
+    return [Mutant(row, fault) for row, fault in rows if row.before.strip() == line and row.kind == kind]
+
+
+@pytest.mark.slow
+def test_what_is_tried_is_written_once_and_the_tree_is_left_alone(copy, tmp_path):
+    status = ["git", "-C", str(ROOT), "status", "--porcelain"]
+    before = subprocess.run(status, capture_output=True, check=True).stdout
+    (noticed,) = mutants_in_line("TOUCH = 1", "number plus one")
+    (survives,) = mutants_in_line("IGNORE = 3", "number plus one")
+    output = tmp_path / "rows.csv"
+    attempts = Attempts(output, [copy])
+    for each in (noticed, survives):
+        attempts.with_fault(each)
+    rows = list(attempts.rows.values())
+    assert [row.outcome for row in rows] == ["noticed", "survived"]
+    assert rows[0].seen_by == "tests/test_tiny.py::test_touch_is_one"
+    attempts.without_fault(rows)
+    written = output.read_bytes()
+    again = Attempts(output, [])  # no copy to try anything in
+    again.with_fault(noticed)
+    assert output.read_bytes() == written
+    assert list(again.rows.values()) == rows
+    assert subprocess.run(status, capture_output=True, check=True).stdout == before
+    said = summary(rows).splitlines()
+    assert said[0] == "arm2d: 1 of 2 noticed"
+    assert said[2:5] == [
+        f"arm2d/instructions.py:{survives.row.line}: number plus one, survived",
+        "-     IGNORE = 3",
+        "+     IGNORE = 4",
+    ]
+    assert said[-1] == "1 of 2 noticed"
+
+
+@pytest.mark.slow
+def test_a_test_that_fails_without_any_fault_is_no_witness(copy, tmp_path):
+    (noticed,) = mutants_in_line("TOUCH = 1", "number plus one")
+    attempts = Attempts(tmp_path / "rows.csv", [copy])
+    attempts.with_fault(noticed)
+    (tmp_path / "copy" / "tree" / "tests" / "test_tiny.py").write_text(TINY_TEST.replace("== 1", "== 7"))
+    with pytest.raises(SystemExit, match="test_touch_is_one: fails without any fault; put this right"):
+        attempts.without_fault(list(attempts.rows.values()))
+
+
+@pytest.mark.slow
+def test_a_fault_with_which_a_test_does_not_end_is_too_slow(copy, tmp_path, monkeypatch):
+    monkeypatch.setattr(mutants, "LIMIT", 3.0)
+    endless = TINY_TEST.replace("assert ActionWord", "while ActionWord").replace("== 1", "== 2: pass")
+    (tmp_path / "copy" / "tree" / "tests" / "test_tiny.py").write_text(endless)
+    (fault,) = mutants_in_line("TOUCH = 1", "number plus one")
+    outcome, _, seen_by = copy.attempt(fault, ("tests/test_tiny.py",))
+    assert (outcome, seen_by) == ("too slow", "")
+
+
+def test_a_test_is_known_by_its_name_whatever_its_message():
+    assert (
+        name_of("FAILED tests/test_a.py::test_b[one two] - ValueError: 1 - 2\n")
+        == "tests/test_a.py::test_b[one two]"
+    )
+    assert name_of("ERROR tests/test_a.py\n") == "tests/test_a.py"
