@@ -1,5 +1,6 @@
 import io
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -75,9 +76,12 @@ def test_what_is_written_and_then_its_folder_reach_the_disk(tmp_path, monkeypatc
         flushed.append((os.path.realpath(f"/proc/self/fd/{handle}"), path.read_bytes()))
         flush(handle)
 
-    monkeypatch.setattr(storage.os, "fsync", spy)
+    monkeypatch.setattr(os, "fsync", spy)
     write_atomically(path, b"new")
-    assert flushed == [(str(tmp_path / ".file.tmp"), b"old"), (str(tmp_path), b"new")]
+    (temporary, before), (folder, after) = flushed
+    assert Path(temporary).parent == tmp_path
+    assert Path(temporary).name.startswith(".file.")
+    assert (before, folder, after) == (b"old", str(tmp_path), b"new")
 
 
 def test_objects_are_never_stored():

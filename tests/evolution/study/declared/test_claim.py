@@ -74,10 +74,10 @@ def test_likelihood_is_that_of_the_distribution():
 
 
 def test_no_difference_is_claimed_more_often_than_promised():
-    """Of 100 pairs of groups without a difference, as scattered as runs are, some five have p < 0.05."""
+    """Of 40 pairs of groups without a difference, as scattered as runs are, some two have p < 0.05."""
     rng = np.random.default_rng(2)
-    p = [compare_counts(counts(0.1, 0.4, 40, rng), counts(0.1, 0.4, 40, rng)).p for _ in range(100)]
-    assert np.mean(np.array(p) < 0.05) <= 0.12
+    p = [compare_counts(counts(0.1, 0.4, 40, rng), counts(0.1, 0.4, 40, rng)).p for _ in range(40)]
+    assert np.mean(np.array(p) < 0.05) <= 0.15
     assert np.mean(np.array(p) > 0.5) > 0.3
 
 
