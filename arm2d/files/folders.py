@@ -57,14 +57,16 @@ def opened_folder(path: Path, *, make: bool = False) -> Iterator[int]:
 def _walk(path: Path, make: bool) -> int:
     """A handle of a folder that names it only, reached step by step."""
     names, links = [*reversed(path.parts)], 0
+    of_a_link = len(names)  # from so many names left on, they are those of a link, where nothing is made
     here = os.open(".", STEP)
     try:
         while names:
             name = names.pop()
-            there = _step(name, here, make and name != "..")
+            there = _step(name, here, make and name != ".." and len(names) < of_a_link)
             mode = os.fstat(there).st_mode
             if stat.S_ISLNK(mode):
                 links += 1
+                of_a_link = min(of_a_link, len(names))
                 try:
                     names += reversed(_target(there, name, path, links).parts)
                 finally:

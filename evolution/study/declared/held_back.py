@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.results.statistics import BOOTSTRAP_SAMPLES
 from evolution.search.randomness import Purpose, generator
 from evolution.study.declared.outcomes import Outcome
@@ -34,6 +35,8 @@ class Check:
     predicted: NDArray[np.float64]
     found: NDArray[np.float64]
     without: float
+
+    __repr__ = brief
 
     @property
     def skill(self) -> Estimate:

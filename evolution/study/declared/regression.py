@@ -16,6 +16,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.results.statistics import NORMAL_95
 from evolution.study.declared.factors import FACTORS, levels_of
 from evolution.study.declared.outcomes import Outcome
@@ -79,6 +80,8 @@ class Model:
     covariance: NDArray[np.float64]
     p: NDArray[np.float64]
     tried: Mapping[Pair, float]
+
+    __repr__ = brief
 
     @cached_property
     def corrected(self) -> NDArray[np.float64]:

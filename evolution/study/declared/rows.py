@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition, Readings
+from arm2d.records import brief
 from evolution.agents.postevaluation import N_INSTRUCTIONS, POST_EVALUATION, TRIALS
 from evolution.agents.subtasks import MOVE_BLUE, SUBTASKS, TOUCH_GREEN, categories, classify, masters
 from evolution.agents.transitions import TRANSITION_TEST, passes
@@ -66,6 +67,8 @@ class MeasuredRun:
     solved_late: float
     counts: Mapping[str, int]
     successes: NDArray[np.float64]
+
+    __repr__ = brief
 
     @property
     def solved(self) -> bool:

@@ -185,3 +185,14 @@ def test_a_link_is_read_only_where_it_may_be(shared, thesis):
     assert read_file(shared / "drawing", 100) == b"three years of work"
     with pytest.raises(LinkError):
         read_file(shared / "drawing", 100, links=False)
+
+
+def test_where_a_link_leads_nothing_is_made(shared):
+    (shared / "link").symlink_to("nowhere")
+    with pytest.raises(FileNotFoundError), opened_folder(shared / "link" / "run", make=True):
+        pass
+    assert not (shared / "nowhere").exists()
+    (shared / "real").mkdir()
+    (shared / "to").symlink_to("real")
+    with opened_folder(shared / "to" / "run", make=True):
+        assert (shared / "real" / "run").is_dir()
