@@ -114,8 +114,8 @@ class _Places:
                 yield Fault(self._start(node), self._start(node) + len(word), "", f"{word} dropped")
             case ast.Constant(value=bool()):
                 yield self._instead(node, str(not node.value), "other truth value")
-            case ast.Constant(value=int() | float()):
-                yield self._instead(node, repr(node.value + 1), "number plus one")
+            case ast.Constant(value=int() | float() as number):
+                yield self._instead(node, repr(number + 1), "number plus one")
             case ast.Name(id=name) | ast.Attribute(attr=name) if name in NAMES:
                 yield Fault(self._end(node) - len(name), self._end(node), NAMES[name], "other function")
             case ast.If() | ast.While() | ast.IfExp():
@@ -123,9 +123,10 @@ class _Places:
                 yield self._instead(node.test, f"(not ({test}))", "condition negated")
             case ast.FunctionDef(body=[_, _, *_]):
                 yield from self._early_return(node)
-        yield from self._dropped(node)
+        if isinstance(node, ast.stmt):
+            yield from self._dropped(node)
 
-    def _dropped(self, node: ast.AST) -> Iterator[Fault]:
+    def _dropped(self, node: ast.stmt) -> Iterator[Fault]:
         """A statement replaced by one that does nothing, if the rest of the function can do without it."""
         if isinstance(node, ast.AugAssign) and type(node.op) in OPERATORS:
             old, new = OPERATORS[type(node.op)]

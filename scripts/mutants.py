@@ -15,29 +15,19 @@ tree where it stands, knows one test command for all modules, and draws no sampl
 from __future__ import annotations
 
 import argparse
-import csv
 import difflib
 import os
-import queue
 import random
 import resource
-import shutil
-import signal
-import subprocess
-import sys
 import tempfile
-import time
 from collections import Counter
-from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
-from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Final
 
-from scripts.faults import Fault, faults_in
+from scripts.faults import faults_in
+from scripts.trying_faults import ROOT, Attempts, Copy, Mutant, Row, row_of
 
-ROOT: Final = Path(__file__).parents[1]
 # Which tests concern which modules, the quickest first; the first pattern that fits counts.
 KERNEL: Final = (
     "tests/arm2d/test_arithmetic.py",
@@ -87,142 +77,8 @@ TESTS: Final[dict[str, tuple[str, ...]]] = {
 }
 # What only draws is looked at by people.
 LEFT_OUT: Final = ("mujoco_port/reach/certificate_figure.py", "models/appearance.py")
-LIMIT: Final = 300.0  # [s] in which some test has to end
-LOOK: Final = 1.0  # [s] from one look to the next
 # A fault may ask for any amount of memory [bytes].
 LARGEST_MEMORY: Final = 16 * 2**30
-
-
-@dataclass(frozen=True)
-class Row:
-    """What became of a fault, as it stands in the output.
-
-    Attributes:
-        path: The module.
-        line: Of the fault.
-        kind: What was done.
-        before: The lines as they should be.
-        after: With the fault.
-        outcome: "noticed", "survived", or "too slow", which is noticed as well.
-        seconds: Duration of the tests [s].
-        seen_by: The test that failed.
-    """
-
-    path: str
-    line: int
-    kind: str
-    before: str
-    after: str
-    outcome: str = ""
-    seconds: str = ""
-    seen_by: str = ""
-
-    @property
-    def what(self) -> tuple[str, ...]:
-        """What tells it from all others, wherever its lines have moved to."""
-        return self.path, self.kind, self.before, self.after
-
-
-@dataclass(frozen=True)
-class Mutant:
-    """A fault of a module, with the row that will tell of it."""
-
-    row: Row
-    fault: Fault
-
-
-class Copy:
-    """A copy of the tree in which one fault after the other is tried.
-
-    Args:
-        place: An empty folder for the copy, its cache and its temporary files.
-    """
-
-    def __init__(self, place: Path) -> None:
-        self._tree, self._place = place / "tree", place
-        listed = subprocess.run(
-            ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],  # noqa: S607
-            cwd=ROOT,
-            check=True,
-            capture_output=True,
-            text=True,
-        )
-        for name in filter(None, listed.stdout.split("\0")):
-            target = self._tree / name
-            target.parent.mkdir(parents=True, exist_ok=True)
-            if (ROOT / name).is_file():
-                shutil.copy2(ROOT / name, target)
-        for name in ("home", "temporary"):
-            (place / name).mkdir(mode=0o700)
-        self._tried = 0
-
-    def attempt(self, mutant: Mutant, tests: tuple[str, ...]) -> tuple[str, float, str]:
-        """Outcome, duration [s], and the test that failed, of tests with a fault in the sources."""
-        path = self._tree / mutant.row.path
-        sound, stamp = path.read_bytes(), path.stat()
-        path.write_bytes(mutant.fault.put_into(sound))
-        # A date of its own, lest what was compiled of another fault be taken for this one's.
-        self._tried += 1
-        os.utime(path, (stamp.st_atime, stamp.st_mtime + 10 * self._tried))
-        try:
-            return self.run(tests)
-        finally:
-            path.write_bytes(sound)
-            os.utime(path, (stamp.st_atime, stamp.st_mtime))
-
-    def run(self, tests: Sequence[str]) -> tuple[str, float, str]:
-        """The same, of tests in the tree as it is."""
-        began = time.monotonic()
-        with (self._place / "said").open("w+", encoding="utf-8") as said:
-            process = subprocess.Popen(  # noqa: S603 - our own words
-                [sys.executable, "-m", "pytest", "-x", "-p", "no:cacheprovider", "--tb=no", *tests],
-                cwd=self._tree,
-                env=self._environment,
-                stdout=said,
-                stderr=subprocess.STDOUT,
-                start_new_session=True,
-            )
-            try:
-                code = self._exit_code(process)
-                outcome = "too slow" if code is None else "noticed" if code else "survived"
-            finally:
-                self._end_all(process)
-            said.seek(0)
-            failed = [line for line in said if line.startswith(("FAILED ", "ERROR "))]
-        return outcome, time.monotonic() - began, name_of(failed[0]) if failed else ""
-
-    def _exit_code(self, process: subprocess.Popen) -> int | None:
-        """That of pytest, which says a letter after every test; None if it has fallen silent."""
-        silence, written = 0.0, -1
-        while process.poll() is None:
-            size = (self._place / "said").stat().st_size
-            # Looks are counted, not the clock asked: it goes on while all of this is suspended.
-            silence, written = (silence + LOOK if size == written else 0.0), size
-            if silence > LIMIT:
-                return None
-            with suppress(subprocess.TimeoutExpired):
-                process.wait(LOOK)
-        return process.returncode
-
-    def _end_all(self, process: subprocess.Popen) -> None:
-        """End whatever tests have left behind."""
-        with suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-        shutil.rmtree(self._place / "temporary", ignore_errors=True)
-        (self._place / "temporary").mkdir(mode=0o700, exist_ok=True)
-
-    @property
-    def _environment(self) -> dict[str, str]:
-        """That of the user, with nothing of theirs in reach."""
-        places = {"HOME": "home", "TMPDIR": "temporary", "NUMBA_CACHE_DIR": "home", "XDG_CACHE_HOME": "home"}
-        own = {name: str(self._place / folder) for name, folder in places.items()}
-        return {**os.environ, **own, "PYTHONPATH": str(self._tree), "PYTHONDONTWRITEBYTECODE": "1"}
-
-
-def name_of(line: str) -> str:
-    """The test in a line of pytest's summary, such as "FAILED tests/test_one.py::test_one - ValueError"."""
-    return line.partition(" ")[2].partition(" - ")[0].strip()
 
 
 def all_mutants() -> list[Mutant]:
@@ -233,76 +89,13 @@ def all_mutants() -> list[Mutant]:
         source = path.read_bytes()
         for fault in faults_in(source):
             row = row_of(path.relative_to(ROOT).as_posix(), source, fault)
-            mutants.setdefault(row.what, Mutant(row, fault))
+            mutants.setdefault(row.what, Mutant(row, fault, witnesses_of(row.path)))
     return list(mutants.values())
-
-
-def row_of(path: str, source: bytes, fault: Fault) -> Row:
-    """The row of a fault that has not been tried."""
-    first = source.rfind(b"\n", 0, fault.start) + 1
-    last = source.find(b"\n", fault.end)
-    after = source[first : fault.start] + fault.new.encode() + source[fault.end : last]
-    return Row(
-        path, source.count(b"\n", 0, first) + 1, fault.kind, source[first:last].decode(), after.decode()
-    )
 
 
 def witnesses_of(path: str) -> tuple[str, ...]:
     """The tests that concern a module."""
     return next(tests for pattern, tests in TESTS.items() if Path(path).match(pattern))
-
-
-def read_rows(output: Path) -> dict[tuple[str, ...], Row]:
-    """What was tried before."""
-    if not output.exists():
-        return {}
-    with output.open(encoding="utf-8", newline="") as file:
-        rows = [Row(**{**row, "line": int(row["line"])}) for row in csv.DictReader(file)]
-    return {row.what: row for row in rows}
-
-
-class Attempts:
-    """Faults being tried, several at a time, each result written at once.
-
-    Args:
-        output: The file of rows.
-        copies: Where they are tried.
-    """
-
-    def __init__(self, output: Path, copies: list[Copy]) -> None:
-        self.rows = read_rows(output)
-        self._output = output
-        self._free: queue.SimpleQueue[Copy] = queue.SimpleQueue()
-        for each in copies:
-            self._free.put(each)
-
-    def with_fault(self, mutant: Mutant) -> None:
-        """Try one fault, unless it was tried before."""
-        if mutant.row.what in self.rows:
-            return
-        copy = self._free.get()
-        try:
-            self._keep(mutant.row, *copy.attempt(mutant, witnesses_of(mutant.row.path)))
-        finally:
-            self._free.put(copy)
-
-    def without_fault(self, rows: list[Row]) -> None:
-        """Refuse results if a test that noticed a fault fails without any."""
-        seen_by = sorted({row.seen_by for row in rows if "::" in row.seen_by})
-        outcome, _, failed = self._free.get().run(seen_by)
-        if outcome != "survived":
-            raise SystemExit(f"{failed or outcome}: fails without any fault; put this right and begin anew")
-
-    def _keep(self, row: Row, outcome: str, seconds: float, seen_by: str) -> None:
-        done = Row(**{**asdict(row), "outcome": outcome, "seconds": f"{seconds:.1f}", "seen_by": seen_by})
-        begun = self._output.exists()
-        with self._output.open("a", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, [each.name for each in fields(Row)])
-            if not begun:
-                writer.writeheader()
-            writer.writerow(asdict(done))
-        self.rows[done.what] = done
-        print(f"{outcome:9}{seconds:6.0f} s  {row.path}:{row.line}  {row.kind}", flush=True)
 
 
 def summary(rows: list[Row]) -> str:

@@ -5,9 +5,10 @@ import subprocess
 
 import pytest
 
-from scripts import mutants
+from scripts import trying_faults
 from scripts.faults import faults_in
-from scripts.mutants import ROOT, Attempts, Copy, Mutant, all_mutants, name_of, row_of, summary, witnesses_of
+from scripts.mutants import all_mutants, summary
+from scripts.trying_faults import ROOT, Attempts, Copy, Mutant, name_of, row_of
 
 SOURCE = '''"""A number is 1 here."""
 from typing import TYPE_CHECKING
@@ -76,18 +77,16 @@ def test_every_fault_of_every_module_is_python():
 
 
 def test_tests_of_every_module_exist():
-    for path in {each.row.path for each in all_mutants()}:
-        for test in witnesses_of(path):
-            assert (ROOT / test).exists(), test
+    for test in {test for each in all_mutants() for test in each.tests}:
+        assert (ROOT / test).exists(), test
 
 
 @pytest.fixture
-def copy(tmp_path, monkeypatch):
+def copy(tmp_path):
     """A copy whose only test is a tiny one."""
     (tmp_path / "copy").mkdir(mode=0o700)
     copy = Copy(tmp_path / "copy")
     (tmp_path / "copy" / "tree" / "tests" / "test_tiny.py").write_text(TINY_TEST)
-    monkeypatch.setitem(mutants.TESTS, "arm2d/instructions.py", ("tests/test_tiny.py",))
     return copy
 
 
@@ -95,7 +94,10 @@ def mutants_in_line(line, kind):
     """The faults of one kind in a line of the instructions."""
     source = (ROOT / "arm2d" / "instructions.py").read_bytes()
     rows = [(row_of("arm2d/instructions.py", source, fault), fault) for fault in faults_in(source)]
-    return [Mutant(row, fault) for row, fault in rows if row.before.strip() == line and row.kind == kind]
+    tests = ("tests/test_tiny.py",)
+    return [
+        Mutant(row, fault, tests) for row, fault in rows if (row.before.strip(), row.kind) == (line, kind)
+    ]
 
 
 @pytest.mark.slow
@@ -140,11 +142,11 @@ def test_a_test_that_fails_without_any_fault_is_no_witness(copy, tmp_path):
 
 @pytest.mark.slow
 def test_a_fault_with_which_a_test_does_not_end_is_too_slow(copy, tmp_path, monkeypatch):
-    monkeypatch.setattr(mutants, "LIMIT", 3.0)
+    monkeypatch.setattr(trying_faults, "LIMIT", 3.0)
     endless = TINY_TEST.replace("assert ActionWord", "while ActionWord").replace("== 1", "== 2: pass")
     (tmp_path / "copy" / "tree" / "tests" / "test_tiny.py").write_text(endless)
     (fault,) = mutants_in_line("TOUCH = 1", "number plus one")
-    outcome, _, seen_by = copy.attempt(fault, ("tests/test_tiny.py",))
+    outcome, _, seen_by = copy.attempt(fault)
     assert (outcome, seen_by) == ("too slow", "")
 
 
