@@ -204,9 +204,9 @@ def sources_digest(*packages: str) -> str:
 
 def source_files(folder: Traversable, place: str) -> Iterator[tuple[str, Traversable]]:
     """(place, file) of each source file in a folder and below it, in alphabetical order."""
-    for each in sorted(folder.iterdir(), key=lambda each: each.name):
-        name = f"{place}/{each.name}"
-        if each.is_dir():
-            yield from source_files(each, name)
-        elif each.name.endswith(SOURCES):
-            yield name, each
+    for entry in sorted(folder.iterdir(), key=lambda entry: entry.name):
+        name = f"{place}/{entry.name}"
+        if entry.is_dir():
+            yield from source_files(entry, name)
+        elif entry.name.endswith(SOURCES):
+            yield name, entry

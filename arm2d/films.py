@@ -208,12 +208,12 @@ def _ending_in_order() -> Iterator[None]:
         raise SystemExit(128 + number)
 
     taken = [each for each in ENDING if signal.getsignal(each) is signal.SIG_DFL]
-    for each in taken:
-        signal.signal(each, stop)
+    for number in taken:
+        signal.signal(number, stop)
     try:
         yield
     finally:
-        for each in taken:
-            signal.signal(each, signal.SIG_DFL)
+        for number in taken:
+            signal.signal(number, signal.SIG_DFL)
         if caught:
             signal.raise_signal(caught[0])

@@ -59,18 +59,18 @@ def dask_processes(folder: Path, threads: int) -> Iterator[tuple[str, list[subpr
         started.append(start_dask("worker", f"--scheduler-file={file}", *how))
         yield json.loads(file.read_text())["address"], started
     finally:
-        for each in started:
-            each.terminate()
-        for each in started:
-            each.wait()
+        for process in started:
+            process.terminate()
+        for process in started:
+            process.wait()
 
 
 def cpu_of(pids: list[int]) -> float:
     """Processor time of living processes, of those below them, and of all that these have waited for [s]."""
     total = 0.0
     for pid in pids:
-        for each in (parent := psutil.Process(pid), *parent.children(recursive=True)):
-            times = each.cpu_times()
+        for process in (parent := psutil.Process(pid), *parent.children(recursive=True)):
+            times = process.cpu_times()
             total += times.user + times.system + times.children_user + times.children_system
     return total
 

@@ -80,10 +80,10 @@ def main() -> None:
                 processes.append(start_on(host, *DASK, *worker, "--interface=eth0", "--no-dashboard"))
             run_cut_off(plan)
         finally:
-            for each in processes:
-                each.terminate()
-            for each in processes:
-                each.wait()
+            for process in processes:
+                process.terminate()
+            for process in processes:
+                process.wait()
         same = [parts(undisturbed.path(each)) == parts(plan.path(each)) for each in CONFIGS]
         print(f"{sum(same)} of {len(same)} runs have the bits of the undisturbed ones")
         for log in sorted((plan.folder / "logs").glob("*.log")):

@@ -70,13 +70,13 @@ def _write_and_rename(name: str, data: bytes, folder: int) -> None:
 
 def _remove_leftovers(name: str, folder: int) -> None:
     """Remove the temporary files that dead writers of a file left."""
-    for each in os.listdir(folder):
-        if is_temporary(each) and final_name(each) == name:
+    for other in os.listdir(folder):
+        if is_temporary(other) and final_name(other) == name:
             with suppress(OSError):
-                handle = handle_in(folder, each, os.O_WRONLY)
+                handle = handle_in(folder, other, os.O_WRONLY)
                 try:
                     if _lock(handle):
-                        os.unlink(each, dir_fd=folder)
+                        os.unlink(other, dir_fd=folder)
                 finally:
                     os.close(handle)
 

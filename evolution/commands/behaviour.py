@@ -141,9 +141,9 @@ def _write(
         paths += save_figure(figure, output / f"{source.name}-{name}")
     paths.append(output / f"{source.name}-behaviour.npz")
     arrays = {**behaviour.arrays(), **lesions.arrays()}
-    for event, each in shares.items():
+    for event, own in shares.items():
         word = event.split()[1]  # start, sight, touch
-        arrays.update({f"{word}_shares_{name}": array for name, array in each.arrays().items()})
+        arrays.update({f"{word}_shares_{name}": array for name, array in own.arrays().items()})
     write_arrays(paths[-1], arrays)
     return paths
 

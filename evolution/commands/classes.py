@@ -70,14 +70,14 @@ def _table(behaviours: Behaviours) -> Table:
     )  # fmt: skip
     places = [1 + i for i, each in enumerate(LESIONS) if each.harmless and each.manner == "silenced"]
     for condition, classes in behaviours.items():
-        for kind, each in classes.items():
-            if len(each.seeds):
-                success = each.success(known=True).mean(axis=0)
-                values = (each.windows[:, 0, 0], each.windows[:, 1, 1], *success[[0, *places]])
+        for kind, behaviour in classes.items():
+            if len(behaviour.seeds):
+                success = behaviour.success(known=True).mean(axis=0)
+                values = (behaviour.windows[:, 0, 0], behaviour.windows[:, 1, 1], *success[[0, *places]])
                 shown = [_percent(value) for value in values]
             else:
                 shown = ["-"] * 5
-            counts = (str(int(each.agents.sum())), str(len(each.seeds)))
+            counts = (str(int(behaviour.agents.sum())), str(len(behaviour.seeds)))
             table.add_row(TITLES[condition], SHORT[kind], *counts, *shown)
     return table
 

@@ -71,8 +71,8 @@ class ExperimentCommand:
         if stop.requested:
             print("stopped; go on with the same command")
             return INTERRUPTED
-        for each in failures:
-            print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
+        for failure in failures:
+            print(f"{failure.job.name}, given up while {failure.job.stage}: {failure.sentence}")
         done = sum(each.done for each in plan.standings())
         print(f"{done} of {len(plan.configs)} runs are done: {plan.folder}")
         return BAD_INPUT if failures else 0

@@ -95,8 +95,8 @@ def _table(lineage: Lineage, scores: LineageScores) -> Table:
 
     title = f"{lineage.distinct.shape[0]} distinct ancestors in {len(lineage)} generations"
     table = Table("skill", "first came", "for good", "agent", title=title)
-    for each in innovations(scores):
-        table.add_row(each.skill, _number(each.first), _number(each.for_good), f"{100 * each.agent:.0f} %")
+    for came in innovations(scores):
+        table.add_row(came.skill, _number(came.first), _number(came.for_good), f"{100 * came.agent:.0f} %")
     return table
 
 

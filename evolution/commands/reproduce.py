@@ -93,8 +93,8 @@ class Reproduce(FromPreset):
                         return INTERRUPTED
                 _report(results, plan.folder)
         _tell_times(plan.folder, time.monotonic() - began)
-        for each in failures:
-            print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
+        for failure in failures:
+            print(f"{failure.job.name}, given up while {failure.job.stage}: {failure.sentence}")
         return BAD_INPUT if failures else 0
 
 

@@ -88,8 +88,8 @@ class StudyCommand:
                     print("stopped; go on with the same command")
                     return INTERRUPTED
         _write(plan, part, self.results or plan.folder / "results")
-        for each in failures:
-            print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
+        for failure in failures:
+            print(f"{failure.job.name}, given up while {failure.job.stage}: {failure.sentence}")
         return BAD_INPUT if failures else 0
 
     def _run_declared(self) -> int:
@@ -117,8 +117,8 @@ class StudyCommand:
         runs = [found[config] for config in part.configs if config in found]
         paths, notes = study.write(part, runs, self.results or rows.path.parent / "results")
         print(*paths, *notes, f"{len(runs)} of {len(part.configs)} runs are measured so far", sep="\n")
-        for each in failures:
-            print(f"{each.job.name}, given up while {each.job.stage}: {each.sentence}")
+        for failure in failures:
+            print(f"{failure.job.name}, given up while {failure.job.stage}: {failure.sentence}")
         return BAD_INPUT if failures else 0
 
     def _known(self, part: DeclaredPart) -> dict[RunConfig, MeasuredRun]:

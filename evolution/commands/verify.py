@@ -67,8 +67,8 @@ class Verify:
             raise ValueError(f"{folder.path} has recorded no generation yet; go on with: wordarm evolve")
         with shown_progress(Console(), total) as show:
             findings = verify(folder, chosen, show)
-        for each in findings.damage:
-            print(each)
+        for sentence in findings.damage:
+            print(sentence)
         print(verdict(folder, findings))
         return 0 if findings.agrees else DIFFERS
 

@@ -176,6 +176,6 @@ def _refuse_twice(name: str, values: Sequence[Any]) -> None:
     """Refuse a list in which something stands twice, or which is too long to be looked through."""
     if len(values) > MOST_VARIANTS:
         raise ValueError(f"{name} has {len(values):,} values; at most {MOST_VARIANTS:,} can be told apart")
-    for i, each in enumerate(values):
-        if each in values[:i]:
-            raise ValueError(f"{name} has {each} twice; leave one out")
+    for i, value in enumerate(values):
+        if value in values[:i]:
+            raise ValueError(f"{name} has {value} twice; leave one out")

@@ -71,18 +71,18 @@ def _rows_of_runs(standings: Sequence[Standing], pace: Pace, width: int | None) 
     if any(each.to_test for each in standings):
         headings, cells = [*headings, "tested"], [*cells, _tested]
     rows = []
-    for each in standings:
-        left = duration(pace.left(each) if each.at_work else float("nan"))
-        texts = (*(cell(each) for cell in cells), left)
-        rows.append(Row(each.variant, each.short_name, texts, STYLES[each.state]))
+    for standing in standings:
+        left = duration(pace.left(standing) if standing.at_work else float("nan"))
+        texts = (*(cell(standing) for cell in cells), left)
+        rows.append(Row(standing.variant, standing.short_name, texts, STYLES[standing.state]))
     return _aligned([*headings, "left"], rows, width)
 
 
 def _sums(standings: Sequence[Standing], most_rows: int, width: int | None) -> list[Text]:
     """One row for each variant and condition, those at work first, then those that wait."""
     groups: dict[tuple[str, str], list[Standing]] = {}
-    for each in standings:
-        groups.setdefault((each.variant, str(each.config.condition)), []).append(each)
+    for standing in standings:
+        groups.setdefault((standing.variant, str(standing.config.condition)), []).append(standing)
     rows = []
     for variant, condition in sorted(groups, key=lambda group: _rest(groups[group]))[:most_rows]:
         runs = groups[variant, condition]
@@ -140,11 +140,11 @@ def summary_line(standings: Sequence[Standing], pace: Pace, at_once: int) -> str
 def plain_lines(standings: Sequence[Standing], pace: Pace, at_once: int) -> list[str]:
     """The whole in one line, and a line for every run at work."""
     lines = [summary_line(standings, pace, at_once)]
-    for each in standings:
-        if each.at_work:
+    for standing in standings:
+        if standing.at_work:
             lines.append(
-                f"  {each.name}: {each.state}, generation {_generation(each)}, best {_best(each)}, "
-                f"tested {_tested(each)}"
+                f"  {standing.name}: {standing.state}, generation {_generation(standing)}, "
+                f"best {_best(standing)}, tested {_tested(standing)}"
             )
     return lines
 

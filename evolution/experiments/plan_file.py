@@ -48,8 +48,8 @@ def write_plan(plan: Plan) -> None:
 def plan_text(plan: Plan) -> str:
     """The text of plan.toml: one table for each variant and condition, with its seeds."""
     seeds: dict[RunConfig, list[int]] = {}
-    for each in plan.configs:
-        seeds.setdefault(replace(each, seed=0), []).append(each.seed)
+    for config in plan.configs:
+        seeds.setdefault(replace(config, seed=0), []).append(config.seed)
     tables = [
         {
             "name": plan.variants[Variant.of(shared)],

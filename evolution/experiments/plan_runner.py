@@ -203,8 +203,8 @@ def plan_lines(plan: Plan, at_once: int, width: int | None = None) -> list[str]:
     standings = plan.standings()
     pace, how = expected_pace(plan)
     groups: dict[Variant, list[Standing]] = {}
-    for each in standings:
-        groups.setdefault(Variant.of(each.config), []).append(each)
+    for standing in standings:
+        groups.setdefault(Variant.of(standing.config), []).append(standing)
     texts = {variant: _group_text(runs, pace) for variant, runs in groups.items()}
     room = width - 2 - max(map(len, texts.values())) if width else sys.maxsize
     names = told_apart([plan.variants[each] for each in groups], room)

@@ -102,8 +102,8 @@ def read_seeds(value: Any) -> tuple[int, ...]:
     if not given:
         raise ValueError(f"seeds = [] names none; give {EXAMPLES}")
     seeds: list[int] = []
-    for each in given:
-        seeds += _range_of(each, value)
+    for text in given:
+        seeds += _range_of(text, value)
         if len(seeds) > MOST_SEEDS:
             raise _too_many(value)
     twice = [seed for seed, times in Counter(seeds).items() if times > 1]

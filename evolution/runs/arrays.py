@@ -123,8 +123,8 @@ def _check_members(members: list[zipfile.ZipInfo]) -> None:
         raise UnreadableError(f"it holds {len(members)} arrays, more than {MOST_ARRAYS}")
     if sum(each.file_size for each in members) > LARGEST_CONTENT:
         raise UnreadableError(f"its content is larger than {LARGEST_CONTENT // 2**20} MB")
-    for each in members:
-        if each.compress_type not in PLAIN_METHODS:
+    for member in members:
+        if member.compress_type not in PLAIN_METHODS:
             raise UnreadableError("its compression is not that of an .npz")
 
 

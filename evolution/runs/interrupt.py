@@ -30,5 +30,5 @@ class StopRequest:
         self._restore()
 
     def _restore(self) -> None:
-        for each, handler in self._before.items():
-            signal.signal(each, handler)  # pyright: ignore[reportArgumentType]
+        for number, handler in self._before.items():
+            signal.signal(number, handler)  # pyright: ignore[reportArgumentType]

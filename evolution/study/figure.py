@@ -80,8 +80,8 @@ def effects_figure(variants: Sequence[VariantMeasures], title: str) -> Figure:
             _draw_effects(axes, column, variants)
         labels = [f"{readable(each)}  ({len(each.runs)})" for each in variants]
         panels[0].set_yticks(range(len(variants)), labels, fontsize=8.5)
-        for label, each in zip(panels[0].get_yticklabels(), variants, strict=True):
-            label.set_fontweight("bold" if each.name == DEFAULT else "normal")
+        for label, variant in zip(panels[0].get_yticklabels(), variants, strict=True):
+            label.set_fontweight("bold" if variant.name == DEFAULT else "normal")
         panels[0].set_ylim(len(variants) - 0.4, -0.6)
         figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
     return figure
@@ -91,11 +91,11 @@ def _draw_effects(axes: Axes, column: Column, variants: Sequence[VariantMeasures
     theirs = column.published(variants[0].condition)
     if theirs is not None:
         axes.axvline(theirs, color=INK, lw=1.1, ls=(0, (4, 3)), zorder=1)
-    for row, each in enumerate(variants):
-        values = column.values(each)
+    for row, variant in enumerate(variants):
+        values = column.values(variant)
         low, high = interval(values)
-        colour = INK if each.name == DEFAULT else ACCENT
-        if each.name == DEFAULT:
+        colour = INK if variant.name == DEFAULT else ACCENT
+        if variant.name == DEFAULT:
             axes.axvspan(low, high, color=FAINT, alpha=0.13, lw=0, zorder=0)
         spread = np.linspace(-0.22, 0.22, len(values)) if len(values) > 1 else np.zeros(1)
         axes.plot(values, row + spread, "o", ms=2.6, color=colour, alpha=0.35, mew=0, zorder=2)

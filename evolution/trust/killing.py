@@ -109,8 +109,8 @@ def _make_watched_folders(ordeal: Ordeal) -> list[Path]:
     """The folders to watch, made beforehand so that no file in them escapes."""
     below = [run / each for run in ordeal.runs for each in RUN_FOLDERS]
     folders = [*below, *ordeal.runs, ordeal.folder / "results", ordeal.folder]
-    for each in folders:
-        make_folder(each)
+    for folder in folders:
+        make_folder(folder)
     return folders
 
 
@@ -127,9 +127,9 @@ def _one_parent(ordeal: Ordeal, opened: OpenedFiles) -> int:
     is_due = rng.random() < STARTS_WITH_ANOTHER_KILL
     due = time.monotonic() + rng.uniform(0.0, OTHER_KILL_WITHIN)
     while parent.poll() is None:
-        for each in opened.wait(WAIT):
-            if is_temporary(each.name):
-                _perhaps_kill_at_a_write(ordeal, each)
+        for path in opened.wait(WAIT):
+            if is_temporary(path.name):
+                _perhaps_kill_at_a_write(ordeal, path)
         if is_due and time.monotonic() >= due and not ordeal.over:
             is_due = False
             _kill(ordeal, rng.choice(members(parent.pid) or [0]))
@@ -163,9 +163,9 @@ def _kill(ordeal: Ordeal, victim: int) -> None:
 def _unfinished(folder: Path) -> set[tuple[Path, int]]:
     """The unfinished files below a folder, each with the time it was last written."""
     found = set()
-    for each in temporaries(folder):
+    for temporary in temporaries(folder):
         with suppress(FileNotFoundError):  # another process has just given it its final name
-            found.add((each, each.stat().st_mtime_ns))
+            found.add((temporary, temporary.stat().st_mtime_ns))
     return found
 
 

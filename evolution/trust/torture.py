@@ -115,8 +115,8 @@ def _one_round(what: Torture, undisturbed: Path, tally: Tally, tell: Tell) -> No
     refuse_where_nothing_can_be_written(evolve, runs[0], tally)
     command, schedule = _command(what, plan.folder), Schedule(what.seed, tally.rounds)
     run_to_its_end(Ordeal(plan.folder, runs, command, schedule, tally, what.kills, tell))
-    for each in runs:
-        damage_and_repair(each, rng, tally)
+    for run in runs:
+        damage_and_repair(run, rng, tally)
     _compare(results_of(undisturbed), results_of(plan.folder), plan.folder)
     tally.rounds += 1
     shutil.rmtree(plan.folder)

@@ -74,10 +74,10 @@ def try_back_end(name: str, mujoco_works: bool) -> Attempt:
 def first_that_works(attempts: Iterable[Attempt]) -> Attempt:
     """The first attempt that works; if none does, the first one whose library is there but broken."""
     failed = []
-    for each in attempts:
-        if each.works:
-            return each
-        failed.append(each)
+    for tried in attempts:
+        if tried.works:
+            return tried
+        failed.append(tried)
     broken = [each for each in failed if "No such file" not in each.reason]
     return (broken or failed)[0]
 
