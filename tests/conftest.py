@@ -1,6 +1,8 @@
 """What the tests of several packages share."""
 
 import os
+import signal
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +12,13 @@ from hypothesis import settings
 # The same examples every time, and no deadline: a busy machine is no fault.
 settings.register_profile("wordarm", derandomize=True, deadline=None)
 settings.load_profile("wordarm")
+
+# Whoever starts the tests in the background lets them ignore Ctrl-C and its kin; the programs that are tried
+# here must not inherit that.
+if threading.current_thread() is threading.main_thread():
+    for number in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP, signal.SIGXCPU):
+        if signal.getsignal(number) is signal.SIG_IGN:
+            signal.signal(number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL)
 
 
 @pytest.fixture(scope="session")
