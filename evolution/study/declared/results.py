@@ -72,7 +72,7 @@ def effect_table(models: Models) -> PlainTable[Any]:
             "condition": lambda row: str(row.condition),
             "outcome": lambda row: row.model.outcome.name,
             "factor": lambda row: FACTORS[row.place].name,
-            "level": lambda row: FACTORS[row.place].levels[row.number],
+            "level": lambda row: list(FACTORS[row.place].levels)[row.number],
             **estimate_columns(
                 "mean", "mean low", "mean high", of=lambda row: row.model.level_mean(row.place, row.number)
             ),
