@@ -1,6 +1,7 @@
 """Jobs as real processes; most of them are shell commands that stand in for ours."""
 
 import os
+import resource
 import signal
 import sys
 import time
@@ -190,7 +191,9 @@ def test_of_a_killed_worker_it_is_known_how_it_ended_and_what_it_took(kind, tmp_
         end = ended(worker)
     assert (end.exit_code, end.how) == (-signal.SIGKILL, "killed by SIGKILL")
     assert end.wall > end.cpu > 0.02
-    assert 50 < end.peak < 1000
+    # Linux counts what a process held while it was still a copy of the one that started it.
+    ours = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    assert 50 < end.peak < max(1000.0, ours + 100.0)
     assert "from generation 0 on" in job.log.read_text()
 
 
