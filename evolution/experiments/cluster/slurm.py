@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shlex
 import shutil
+import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,7 +13,6 @@ from typing import Any, Final
 
 import dask.config
 import psutil
-from dask_jobqueue.slurm import SLURMCluster, SLURMJob
 from distributed import Client
 from distributed.security import Security
 
@@ -21,6 +21,12 @@ from evolution.experiments.cluster.connection import Connection
 from evolution.experiments.cluster.keys import folder_for_keys, own_keys
 from evolution.experiments.cluster.options import LOOPBACK, SlurmOptions
 from evolution.runs.storage import make_folder
+
+# The package takes Ctrl-C for itself when it is imported, and would end us with exit code 0.
+_CTRL_C = signal.getsignal(signal.SIGINT)
+from dask_jobqueue.slurm import SLURMCluster, SLURMJob  # noqa: E402
+
+signal.signal(signal.SIGINT, _CTRL_C)
 
 DEATH_TIMEOUT: Final = 300  # [s] a worker looks for a scheduler
 # Every local user could ask these processes over HTTP what they do, TLS or not: they answer nothing.

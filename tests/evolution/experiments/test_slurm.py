@@ -230,3 +230,11 @@ def test_without_a_cluster_dask_is_not_imported(monkeypatch):
 
     monkeypatch.setattr(builtins, "__import__", without_dask)
     assert parse(["reproduce", "--runs=3"]).cluster.given is False
+
+
+def test_the_package_for_slurm_does_not_take_ctrl_c_from_us():
+    code = (
+        "import signal; before = signal.getsignal(signal.SIGINT); "
+        "import evolution.experiments.cluster.slurm; assert signal.getsignal(signal.SIGINT) is before"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
