@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo reproduce test mutants lint audit format bench clean
+.PHONY: help setup demo reproduce test docs mutants lint audit format bench clean
 
 help:  ## what there is to make
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -28,6 +28,10 @@ reproduce: $(READY)  ## the whole paper, from random genotypes to the report in 
 test: $(READY)  ## all tests, on all cores
 	@sh scripts/browser.sh
 	$(BIN)/python -m pytest -n auto --dist worksteal
+
+docs: $(READY)  ## the documentation as a site, to be opened from disk: site/index.html
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
+	@echo "open site/index.html"
 
 mutants: $(READY)  ## small faults put into a copy of the sources: which does no test notice?
 	$(BIN)/python -m scripts.mutants --number $(FAULTS) --output mutants.csv
@@ -56,4 +60,4 @@ bench: $(READY)  ## what is fast, measured on this machine
 	$(BIN)/python -m benchmarks.video
 
 clean:  ## remove the environment and what the demo made
-	rm -rf $(VENV) $(DEMO) .pytest_cache .ruff_cache
+	rm -rf $(VENV) $(DEMO) site .pytest_cache .ruff_cache

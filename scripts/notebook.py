@@ -2,7 +2,7 @@
 
     python -m scripts.notebook      runs every cell in an empty folder and writes what came out of it
 
-Outputs are kept in the repository, so that the page can be read where nothing is installed, and built into the
+Outputs are kept in the repository: so the page can be read where nothing is installed, and is built into the
 site without being run. A test runs every cell again and compares what was printed.
 """
 

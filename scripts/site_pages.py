@@ -1,7 +1,7 @@
 """Pages of the documentation site that no file of docs/ holds: reference, notebook, contributing, changes.
 
-MkDocs calls this module while it builds (`hooks` in mkdocs.yml). docs/ itself stays plain Markdown that can be
-read where the repository is hosted; what leads out of it there is led to a page of the site here.
+MkDocs calls this module while it builds (`hooks` in mkdocs.yml). docs/ itself stays plain Markdown that can
+be read where the repository is hosted; what leads out of it there is led to a page of the site here.
 """
 
 from __future__ import annotations
@@ -69,9 +69,10 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
 def reference_of(package: str) -> str:
     """All that a package offers, room by room, each name with its docstring."""
     homes = homes_of(package)
-    text = f"# {package}\n\nWhat `import {package}` offers, from the docstrings. A tour: [the library](../api.md).\n"
+    text = f"# {package}\n\nWhat `import {package}` offers. By example: [a tour](../api.md).\n"
     for room in PACKAGES[package]:
-        text += f"\n## {TITLES.get(room, room).capitalize()}\n" if room else ""
+        if room:
+            text += f"\n## {TITLES.get(room, room).capitalize()}\n"
         for name in sorted((n for n in homes if not room or homes[n].split(".")[0] == room), key=str.lower):
             text += _entry(package, homes[name], name)
     return text

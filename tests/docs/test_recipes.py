@@ -25,7 +25,7 @@ WANTED = {
 
 
 def test_every_recipe_has_code():
-    assert WANTED == {page.stem for page in RECIPES if page.parent.name == "how-to"}
+    assert {page.stem for page in RECIPES if page.parent.name == "how-to"} == WANTED
 
 
 @pytest.mark.parametrize("page", RECIPES, ids=lambda page: page.stem)
