@@ -33,6 +33,8 @@ GENERATED: Final = (
     "reference/command-line.md",
     *(f"reference/{package}.md" for package in PACKAGES),
 )
+# Pages that are a tab by themselves: a list of one beside them would say nothing.
+ALONE: Final = ("index.md", "glossary.md")
 # Of the pictures in a notebook, as its outputs name them.
 PICTURES: Final = {"image/png": "png", "image/jpeg": "jpg"}
 
@@ -58,6 +60,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
     """Lead links out of docs/ to the pages that stand for their targets."""
+    if page.file.src_uri in ALONE:
+        page.meta["hide"] = ["navigation"]
     up = "../" * page.file.src_uri.count("/")
     for source, target in BORROWED.items():
         markdown = markdown.replace(f"](../{up}{source}", f"]({up}{target}")

@@ -15,7 +15,7 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 CONFIG = yaml.safe_load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))
 # What somebody who has never seen the project looks for: the page, and words of the answer.
 ASKED = {
-    "how to resume a run": ("how-to/resume.md", "Give the same command again"),
+    "how to resume a run": ("how-to/resume.md", "To resume, give the same command again"),
     "what success is": ("success.md", "A trial succeeds if F1 = F2 = 1"),
     "how sure the verdict is": ("statistics.md", "Today there is no verdict on the paper's claim"),
     "how to add a word": ("how-to/instruction.md", "Add a word"),

@@ -60,7 +60,7 @@ def test_pages_open_from_disk_and_ask_for_nothing_else(site, browser, page, sche
 def test_search_finds_words_of_the_field_from_disk(site, browser):
     browser.open(site / "index.html")
     browser.evaluate("document.querySelector('#__search').click()")
-    for word, page in (("zero-shot", "Glossary"), ("resume", "Go on with a stopped run")):
+    for word, page in (("zero-shot", "Glossary"), ("resume", "Resume a stopped run")):
         browser.evaluate(
             "(() => { const field = document.querySelector('[data-md-component=search-query]');"
             f"field.focus(); field.value = '{word}';"

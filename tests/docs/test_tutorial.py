@@ -2,6 +2,8 @@
 
 import shlex
 
+import pytest
+
 from evolution.cli import main
 from tests.docs.pages import DOCS, blocks, matches
 
@@ -10,6 +12,7 @@ PAGE = DOCS / "tutorial.md"
 SKIPPED = ("port",)
 
 
+@pytest.mark.slow
 def test_commands_print_what_is_shown(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "80")
