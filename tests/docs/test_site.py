@@ -38,11 +38,8 @@ def test_reference_says_what_docstrings_and_commands_say(site):
     reference = (site / "reference" / "evolution.html").read_text(encoding="utf-8")
     assert "Start a run in a folder, or go on with it" in reference
     commands = (site / "reference" / "command-line.html").read_text(encoding="utf-8")
-    assert all(
-        f"wordarm {command}</h3>" in commands.replace(' <a class="headerlink"', "</h3>")
-        or f"usage: wordarm {command}" in commands
-        for command in COMMANDS
-    )
+    for command in COMMANDS:
+        assert f"usage: wordarm {command} " in commands
 
 
 @NEEDS_BROWSER
