@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from tyro.conf import Positional, arg
 
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from evolution.study.declared.parts import DeclaredPart
     from evolution.study.declared.rows import MeasuredRun
     from evolution.study.variants import Part
+
+# Where what a part's variants stand on was evolved for as long, with the same seeds.
+BEFORE: Final = {"confirmation": "finalists"}
 
 
 @dataclass(frozen=True)
@@ -179,12 +182,14 @@ def _evolve_and_measure(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Fa
 
 
 def _write(plan: Plan, part: Part, folder: Path) -> None:
+    from evolution.experiments.plan_file import read_plan
     from evolution.study.results import measured_variants, write_study
 
     variants = measured_variants(plan)
     if not variants:
         raise ValueError(f"no run in {plan.folder} is measured yet; leave --now away to evolve them")
-    for path in write_study(variants, part, folder):
+    before = read_plan(plan.folder.parent / BEFORE[part.name]) if part.name in BEFORE else None
+    for path in write_study(variants, part, folder, measured_variants(before) if before else ()):
         print(path)
     n = sum(len(each.runs) for each in variants)
     if n < len(plan.configs):
