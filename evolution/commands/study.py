@@ -37,11 +37,13 @@ class StudyCommand:
     part: Literal[
         "screening", "finalists", "around", "confirmation", "factorial", "fresh", "less-one", "hundred"
     ] = "screening"
-    """screening (3000 generations, one reading at a time and the geometry in depth), finalists (the whole
-    experiment under the default and the three that came nearest to the paper in the screening), around (as
-    the screening: other sizes of mutations, and one reading at a time on top of the favoured size) or
-    confirmation (the whole experiment under the two that came nearest around it, and under both together,
-    with fresh seeds)."""
+    """Of the first study: screening (3000 generations, one reading at a time and the geometry in depth),
+    finalists (the whole experiment under the default and the three that came nearest to the paper), around
+    (as the screening, on top of the favoured size of mutations) and confirmation (the whole experiment under
+    the two that came nearest around it, and both together, with fresh seeds). Of the declared one
+    (docs/declaration.md): factorial (all readings mixed), fresh (the worlds it puts nearest to the paper and
+    others, with fresh seeds), less-one (the winner with one departure taken back at a time) and hundred (a
+    hundred runs of either condition under the default)."""
 
     output: Path = Path("runs/readings")
     """Folder of the study; each part has a folder in it."""
@@ -50,7 +52,7 @@ class StudyCommand:
     """Runs of each variant and condition, by default what the part asks for."""
 
     generations: int | None = None
-    """Of each run, by default what the part asks for."""
+    """Generations of each run, by default what the part asks for."""
 
     jobs: int | None = None
     """Processes at a time. By default as many as there are processors."""

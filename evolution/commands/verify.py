@@ -27,7 +27,7 @@ class Verify:
     An archive of results is compared with its checksums instead, and the first damaged file is named.
     """
 
-    run_folder: Annotated[Positional[Path], arg(metavar="RUN")]
+    run_folder: Annotated[Positional[Path], arg(metavar="RUN|ARCHIVE")]
     """Run folder, finished or not; or an archive that `wordarm analyse --archive` made."""
 
     generations: str | None = None
