@@ -36,7 +36,8 @@ def observe_classes(experiment: Path, sampling: Sampling, output: Path | None) -
     from evolution.runs.lock import locked
 
     console, observed = Console(), []
-    for run in track(open_experiment(experiment).all_runs, "runs observed", console=console, transient=True):
+    shown = {"console": console, "transient": True, "disable": not console.is_terminal}
+    for run in track(open_experiment(experiment).all_runs, "runs observed", **shown):
         try:
             if reason := unfinished(run):
                 raise ValueError(reason)
