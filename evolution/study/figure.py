@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from arm2d import Condition
@@ -123,6 +124,7 @@ def _draw_effects(axes: Axes, column: Column, variants: Sequence[Drawn], compare
     low, high = column.limits
     lowest = min(column.values(each).min() for each in variants)
     axes.set_xlim(lowest - 0.05 if low is None else low, high)
+    axes.xaxis.set_major_locator(MaxNLocator(2, steps=[1, 2, 5, 10]))
     axes.tick_params(axis="y", length=0)
     axes.grid(axis="y", color=FAINT, alpha=0.18, lw=0.5)
     axes.spines["left"].set_visible(False)
