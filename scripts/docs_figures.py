@@ -98,9 +98,9 @@ def _generalisers(members: NDArray[np.bool_], generations: NDArray[np.int32]) ->
     none = np.zeros(0, np.int64)
     return Generalisers(
         counts=members.sum(axis=1),
-        generations=generations[rows],
+        generations=generations[rows].astype(np.int64),
         ranks=ranks,
-        spells=spell_lengths(members.any(axis=1)),
+        spells=spell_lengths(np.asarray(members.any(axis=1))),
         first=none,
         stays=none,
         verdicts=none,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -114,7 +114,7 @@ def _count(behaviour: ClassBehaviour) -> str:
 
 
 def _class_handles() -> list[Line2D]:
-    dot = {"ls": "", "marker": "o"}
+    dot: dict[str, Any] = {"ls": "", "marker": "o"}
     return [
         *(
             Line2D([], [], **dot, ms=4.8, color=colour, mec="white", label=str(kind))

@@ -5,7 +5,7 @@ One function per figure; they draw what `evolution.results.analysis` has compute
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping
 from typing import Final
 
 import numpy as np
@@ -52,14 +52,14 @@ def fitness_figure(results: Results) -> Figure:
     return figure
 
 
-def _seed_colours(conditions: Sequence[ConditionResults]) -> dict[int, str]:
+def _seed_colours(conditions: Collection[ConditionResults]) -> dict[int, str]:
     """A colour for each seed; the same for all, if there are more seeds than colours."""
     seeds = sorted({int(seed) for found in conditions for seed in found.seeds})
     several = len(seeds) <= len(SERIES)
     return {seed: SERIES[place] if several else OURS for place, seed in enumerate(seeds)}
 
 
-def _lowest(conditions: Sequence[ConditionResults]) -> float:
+def _lowest(conditions: Collection[ConditionResults]) -> float:
     """Lower end of the axis: a little below the lowest run once it has risen."""
     later = [found.best[:, int(RISE * found.best.shape[1]) :] for found in conditions if found.best.size]
     return min([float(best.min()) for best in later], default=0.0) - 0.05

@@ -8,7 +8,7 @@ from __future__ import annotations
 import csv
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from pathlib import Path
 
@@ -55,8 +55,15 @@ class Drawn:
     def only(self, seeds: Iterable[int]) -> Drawn:
         """The runs with these seeds alone."""
         own = np.isin(self.seeds, list(seeds))
-        arrays = (self.seeds, self.plateaus, self.solved, self.top_shares, self.generalists, self.success)
-        return Drawn(self.name, self.condition, self.generations, *(array[own] for array in arrays))
+        return replace(
+            self,
+            seeds=self.seeds[own],
+            plateaus=self.plateaus[own],
+            solved=self.solved[own],
+            top_shares=self.top_shares[own],
+            generalists=self.generalists[own],
+            success=self.success[own],
+        )
 
 
 def drawn(variant: VariantMeasures) -> Drawn:

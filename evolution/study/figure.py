@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -130,10 +129,10 @@ def _draw_effects(axes: Axes, column: Column, variants: Sequence[Drawn], compare
     axes.spines["left"].set_visible(False)
 
 
-def _handles(compared: str | None, *, published: bool) -> list[Artist]:
+def _handles(compared: str | None, *, published: bool) -> list[Line2D | Patch]:
     """What dots, bars, band and dashed line mean."""
-    dot = {"marker": "o", "color": OURS}
-    handles: list[Artist] = [
+    dot: dict[str, Any] = {"marker": "o", "color": OURS}
+    handles: list[Line2D | Patch] = [
         Line2D([], [], ls="", ms=2.0, mew=0, alpha=0.6, **dot, label="a run"),
         Line2D([], [], lw=1.3, ms=4.2, mec="white", mew=0.6, **dot, label="mean over runs, 95 % interval"),
     ]
