@@ -9,8 +9,15 @@ import tarfile
 import numpy as np
 import pytest
 
+from arm2d import Condition
+from evolution.agents.postevaluation import post_evaluate
+from evolution.agents.transitions import run_transition_test
 from evolution.cli import main
+from evolution.runs.folder import RunFolder
+from evolution.runs.run import evolve
 from evolution.runs.storage import DamagedFileError
+from evolution.search.config import RunConfig
+from evolution.search.settings import Settings
 from evolution.trust.archive import SUMS, pack, read_archive, unpack
 
 FILES = {
@@ -164,3 +171,41 @@ def test_options_about_runs_are_refused_for_archives(option, packed, capsys):
 def test_unpack_is_refused_for_a_run(finished_run, tmp_path, capsys):
     assert main(["verify", str(finished_run), f"--unpack={tmp_path}"]) == 2
     assert f"--unpack is about archives, which {finished_run} is not" in capsys.readouterr().err
+
+
+@pytest.fixture(scope="module")
+def experiment(tmp_path_factory):
+    """A short run of either condition, tested."""
+    home = tmp_path_factory.mktemp("experiment")
+    for condition in Condition:
+        path = home / condition / "seed-0001"
+        evolve(path, RunConfig(condition, 1, Settings(population=10, elites=2, parents=5, generations=6)))
+        post_evaluate(RunFolder.open(path))
+        run_transition_test(RunFolder.open(path))
+    return home
+
+
+@pytest.mark.slow
+def test_results_of_an_experiment_are_packed_whole_and_come_again(experiment, tmp_path, capsys):
+    path = tmp_path / "kept" / "paper-2011.tar.gz"
+    words = ["analyse", str(experiment), f"--output={tmp_path / 'results'}", f"--archive={path}"]
+    assert main(words) == 0
+    assert f"check it with: wordarm verify {path}" in capsys.readouterr().out
+    first = path.read_bytes()
+    assert main(words) == 0
+    assert path.read_bytes() == first
+    files = {name.partition("/")[2]: data for name, data in read_archive(path).items()}
+    assert b"Apache License" in files["LICENSE"]
+    assert b"seeds 1" in files["README.md"]
+    assert files["agents/with-ignore.npz"]
+    for made in (tmp_path / "results").iterdir():
+        assert files[f"results/{made.name}"] == made.read_bytes()
+    for condition in Condition:
+        config = files[f"runs/{condition}/seed-0001/config.toml"].decode()
+        assert RunConfig.from_toml(config).condition is condition
+
+
+@pytest.mark.parametrize("name", ["results.zip", "results", ".tar.gz", "my results.tar.gz"])
+def test_a_name_that_is_none_for_an_archive_is_refused_before_anything_is_done(name, tmp_path, capsys):
+    assert main(["analyse", str(tmp_path / "nowhere"), f"--archive={tmp_path / name}"]) == 2
+    assert "is no name for an archive; give such as results.tar.gz" in capsys.readouterr().err
