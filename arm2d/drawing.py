@@ -34,6 +34,7 @@ FLOOR: Final = "#FBFAF7"
 FAINT: Final = "#D9D6CF"
 CAMERA: Final = "#F0E442"
 INK: Final = "#1A1A1A"
+QUIET: Final = "#6B6B6B"  # of what is said by the way
 CONTACT: Final = "#111111"
 
 # Everything the arm and its objects can reach, with room for the instruction above [cm].
@@ -44,6 +45,52 @@ S1_WIDTH: Final = 7.0
 S2_WIDTH: Final = 3.4
 # Below this a small panel's letters can no longer be read [points].
 SMALLEST_LETTERS: Final = 6.0
+
+# Figures are drawn as wide as they are printed: in a column of a journal, or across its page [inches].
+COLUMN: Final = 85 / 25.4
+FULL: Final = 178 / 25.4
+# Letters of a figure's title, a panel's title, axes, and of ticks, notes and legends [points].
+TITLE, HEADING, TEXT, SMALL = 10.0, 8.0, 7.0, 6.2
+STYLE: Final[dict[Any, Any]] = {
+    "font.family": "DejaVu Sans",
+    "font.size": TEXT,
+    "axes.titlesize": HEADING,
+    "axes.titlelocation": "left",
+    "axes.titlepad": 4.0,
+    "axes.labelsize": TEXT,
+    "axes.labelpad": 2.5,
+    "axes.edgecolor": QUIET,
+    "axes.labelcolor": INK,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "figure.titlesize": TITLE,
+    "figure.titleweight": "bold",
+    "figure.constrained_layout.h_pad": 0.06,
+    "figure.constrained_layout.w_pad": 0.06,
+    "legend.fontsize": SMALL,
+    "legend.title_fontsize": SMALL,
+    "legend.frameon": False,
+    "legend.columnspacing": 1.4,
+    "legend.handlelength": 1.6,
+    "legend.handletextpad": 0.5,
+    "lines.linewidth": 1.0,
+    "text.color": INK,
+    **{
+        f"{axis}tick.{name}": value
+        for axis in "xy"
+        for name, value in (
+            ("color", QUIET),
+            ("labelcolor", INK),
+            ("labelsize", SMALL),
+            ("major.size", 2.2),
+            ("major.width", 0.6),
+            ("major.pad", 2.5),
+        )
+    },
+    "svg.fonttype": "path",
+    "svg.hashsalt": "wordarm",
+}
 
 
 @contextmanager

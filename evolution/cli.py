@@ -47,7 +47,7 @@ GROUPS: Final = {
         "workspace": Entry("robot:Workspace", "whether a robot reaches everywhere, and hits nothing"),
     },
     "keep": {
-        "verify": Entry("verify:Verify", "a run computed again and compared, or repaired"),
+        "verify": Entry("verify:Verify", "a run computed again and compared; an archive checked"),
         "doctor": Entry("machine:Doctor", "what this machine lacks; what its file system keeps"),
     },
 }
@@ -60,6 +60,7 @@ MOVED: Final = {
     "plot": "evaluate RUN",
     "repair": "verify RUN --repair",
     "ship": "analyse EXPERIMENT --ship FOLDER",
+    "archive": "analyse EXPERIMENT --archive FILE.tar.gz",
     "torture": "doctor --torture FOLDER",
 }
 

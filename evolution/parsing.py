@@ -138,8 +138,16 @@ def _fitted(text: str, width: int) -> str:
     """Help whose description is as wide as its boxes, and without their empty rows."""
     lines = [line for line in text.splitlines() if not BLANK_ROW.fullmatch(STYLES.sub("", line))]
     return "\n".join(
-        line if len(STYLES.sub("", line)) <= width else textwrap.fill(line, width) for line in lines
+        line
+        if len(STYLES.sub("", line)) <= width
+        else textwrap.fill(line, width, subsequent_indent=_indent(line))
+        for line in lines
     )
+
+
+def _indent(line: str) -> str:
+    """What stands before the further lines of a long one: those of a usage are no text of their own."""
+    return "    " if STYLES.sub("", line).startswith("usage: ") else ""
 
 
 def _about_options(kind: type[T], arguments: Sequence[str], prog: str, default: T | None) -> str | None:
@@ -203,7 +211,8 @@ def _field_spec(owner: type, field: Field, kind: Any, default: object) -> Struct
     """A field, its default left out of the help where it says nothing."""
     if get_origin(kind) is not Annotated and (several := _several(kind)):
         kind = Annotated[kind, arg(metavar=several)]
-    if bool in get_args(kind):  # neither yes nor no is the default, so both can be said
+    bare = get_args(kind)[0] if get_origin(kind) is Annotated else kind
+    if bool in get_args(bare):  # neither yes nor no is the default, so both can be said
         kind = Annotated[kind, FlagConversionOff]
     if default is None or default == () or isinstance(default, bool):
         kind = Annotated[kind, arg(help_behavior_hint="")]

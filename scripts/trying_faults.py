@@ -71,6 +71,8 @@ class Copy:
 
     def __init__(self, place: Path) -> None:
         self._tree, self._place = place / "tree", place
+        if shutil.which("git") is None:
+            raise SystemExit("git, which lists the files to be copied, is not there: apt-get install git")
         listed = subprocess.run(
             ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],  # noqa: S607
             cwd=ROOT,

@@ -1,6 +1,7 @@
 """What the tests of several packages share."""
 
 import os
+import shutil
 import signal
 import threading
 from pathlib import Path
@@ -32,6 +33,15 @@ def evolved() -> np.ndarray:
 def evolved_agent(evolved) -> np.ndarray:
     """The best [84] of the With-Indicate run that got furthest."""
     return evolved[15]
+
+
+@pytest.fixture(scope="session")
+def git() -> str:
+    """The program; who does not have it is told."""
+    found = shutil.which("git")
+    if found is None:
+        pytest.skip("needs git: apt-get install git")
+    return found
 
 
 @pytest.fixture

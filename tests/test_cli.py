@@ -292,3 +292,25 @@ def test_help_of_a_command_fits_and_says_nothing_of_what_is_not_given(name, colu
 def test_version_says_revision_too(capsys):
     assert main(["--version"]) == 0
     assert re.fullmatch(r"wordarm \d+\.\d+\.\d+, revision \S+\n", capsys.readouterr().out)
+
+
+def test_a_switch_takes_no_word_and_help_shows_none(capsys):
+    from evolution.cli import parse
+
+    assert parse(["status", "runs", "--all"]).every_run
+    assert not parse(["status", "runs"]).every_run
+    with pytest.raises(SystemExit):
+        main(["status", "--help"])
+    assert "{True,False}" not in capsys.readouterr().out
+
+
+def test_help_names_every_part_of_the_study_and_says_what_it_is(capsys):
+    from typing import get_args, get_type_hints
+
+    from evolution.commands.study import StudyCommand
+
+    with pytest.raises(SystemExit):
+        main(["study", "--help"])
+    text = " ".join(re.sub(r"[│╭╮╰╯─]", " ", capsys.readouterr().out).split())
+    for part in get_args(get_type_hints(StudyCommand)["part"]):
+        assert f"{part} (" in text, part

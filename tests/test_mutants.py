@@ -82,7 +82,7 @@ def test_tests_of_every_module_exist():
 
 
 @pytest.fixture
-def copy(tmp_path):
+def copy(tmp_path, git):
     """A copy whose only test is a tiny one."""
     (tmp_path / "copy").mkdir(mode=0o700)
     copy = Copy(tmp_path / "copy")

@@ -110,3 +110,50 @@ def test_without_strangers_nothing_is_moved():
     )
     done = run([*PYTHON, "-c", code + "print(sys.path == before)"], Path.home())
     assert done.stdout == "True\n"
+
+
+USE = "evolution.Settings, mujoco_port.angles_to, arm2d.Readings"
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("way", ["script", "session", "PYTHONPATH"])
+def test_what_is_imported_from_wordarm_is_ours_whatever_lies_beside(way, name, tmp_path):
+    plant(tmp_path, name)
+    code = f"from wordarm import arm2d, evolution, mujoco_port\nprint({USE})\n"
+    script = (tmp_path if way == "PYTHONPATH" else tmp_path / "mine") / "analysis.py"
+    script.write_text(code)
+    if way == "session":
+        done = run([*PYTHON, "-c", code], tmp_path / "mine")
+    else:
+        path = str(tmp_path / "mine") if way == "PYTHONPATH" else ""
+        done = run([*PYTHON, str(script)], tmp_path, PYTHONPATH=path)
+    assert done.returncode == 0, done.stderr
+    assert "<class 'evolution.search.settings.Settings'>" in done.stdout
+    assert executed(tmp_path) == []
+
+
+@pytest.mark.parametrize("name", ["evolution.py", "models/__init__.py"])
+def test_a_stranger_that_was_imported_first_is_named(name, tmp_path):
+    file = plant(tmp_path, name)
+    package = name.split("/")[0].removesuffix(".py")
+    done = run([*PYTHON, "-c", f"import {package}\nfrom wordarm import evolution"], tmp_path / "mine")
+    last = done.stderr.splitlines()[-1]
+    assert f"{file} was imported as {package!r} before wordarm's package of that name; rename it" in last
+
+
+def test_a_notebook_beside_a_stranger_finds_ours_through_wordarm_or_is_told(tmp_path):
+    """A kernel begins in the notebook's folder, which it looks into first."""
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel")
+    file = plant(tmp_path, "models.py")
+    cells = [
+        "import mujoco_port\ntry:\n    mujoco_port.port_trial\nexcept ImportError as e:\n    print(e)",
+        f"from wordarm import arm2d, evolution, mujoco_port\nprint({USE})",
+    ]
+    book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+    kernel = {"kernel_name": "python3", "resources": {"metadata": {"path": str(file.parent)}}}
+    nbclient.NotebookClient(book, timeout=120, **kernel).execute()
+    told, found = ("".join(output["text"] for output in cell["outputs"]) for cell in book.cells)
+    assert f"{file} stands in front of the package 'models'" in told
+    assert "Settings" in found
+    assert executed(tmp_path) == []

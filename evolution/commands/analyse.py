@@ -79,6 +79,10 @@ class Analyse:
     """Of one experiment, also write best generaliser, best specialist and best With-Ignore agent to files of
     their own in this folder; those in evolution/champions are known by their names."""
 
+    archive: Path | None = None
+    """Of one experiment, also pack all of this, the configs of its runs, checksums, licence and a README into
+    one file, such as results.tar.gz. `wordarm verify` checks and unpacks it."""
+
     def run(self) -> int:
         """Analyse, write and print."""
         from evolution.experiments.experiment import open_experiment
@@ -88,6 +92,8 @@ class Analyse:
             raise ValueError("no experiment is named; give its folder, such as runs/default")
         if len(self.experiments) > 1 and self.ship is not None:
             raise ValueError("--ship takes the agents of one experiment; name one")
+        if self.archive is not None:
+            self._check_archive(self.archive)
         found = {name: open_experiment(path) for name, path in _named(self.experiments).items()}
         results = {name: analyse(experiment) for name, experiment in found.items()}
         if len(results) > 1:
@@ -95,7 +101,19 @@ class Analyse:
         else:
             (only,) = results.values()
             _write(only, self.output or only.experiment.path / "results", self.ship)
+            if self.archive is not None:
+                _pack(only, self.archive)
         return 0
+
+    def _check_archive(self, path: Path) -> None:
+        """Refuse what cannot be packed before an hour of analysis."""
+        from evolution.trust.archive import NAME, SUFFIX
+
+        if len(self.experiments) > 1:
+            raise ValueError("--archive takes the results of one experiment; name one")
+        folder = path.name.removesuffix(SUFFIX)
+        if not path.name.endswith(SUFFIX) or not NAME.fullmatch(folder):
+            raise ValueError(f"--archive {path} is no name for an archive; give such as results{SUFFIX}")
 
 
 def _write(results: Results, output: Path, shipped: Path | None) -> None:
@@ -109,6 +127,17 @@ def _write(results: Results, output: Path, shipped: Path | None) -> None:
     for path in paths:
         print(path)
     print(summary(results))
+
+
+def _pack(results: Results, path: Path) -> None:
+    """Pack everything into one file."""
+    from evolution.report.bundle import bundle
+    from evolution.runs.storage import make_folder, write_atomically
+    from evolution.trust.archive import SUFFIX, pack
+
+    make_folder(path.parent)
+    write_atomically(path, pack(path.name.removesuffix(SUFFIX), bundle(results)))
+    print(f"{path}\ncheck it with: wordarm verify {path}")
 
 
 def _compare(results: Mapping[str, Results], output: Path) -> None:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
-
-PIPE_WIDTH: Final = 120
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -36,7 +34,8 @@ def observe_classes(experiment: Path, sampling: Sampling, output: Path | None) -
     from evolution.runs.lock import locked
 
     console, observed = Console(), []
-    for run in track(open_experiment(experiment).all_runs, "runs observed", console=console, transient=True):
+    shown = {"console": console, "transient": True, "disable": not console.is_terminal}
+    for run in track(open_experiment(experiment).all_runs, "runs observed", **shown):
         try:
             if reason := unfinished(run):
                 raise ValueError(reason)
@@ -48,8 +47,7 @@ def observe_classes(experiment: Path, sampling: Sampling, output: Path | None) -
         raise ValueError(f"no run in {experiment} can be observed, for the reasons above")
     if output is not None:
         behaviours = behaviours_of(observed)
-        # A pipe has no width: nothing is to be cut there.
-        console.print(_table(behaviours), width=None if console.is_terminal else PIPE_WIDTH)
+        console.print(_table(behaviours))
         for path in write_classes(behaviours, sampling, output):
             print(path)
 
@@ -63,13 +61,13 @@ def _table(behaviours: Behaviours) -> Table:
     from evolution.results.wording import TITLES
 
     table = Table(
-        "condition", "class", "agents", "runs",
-        "object\nbefore", "action\nafter", "intact",
+        "", "agents\n(runs)", "object\nbefore", "action\nafter", "intact",
         "action\nsilenced\nbefore", "object\nsilenced\nafter",
-        title="share of variance explained before, after first sight; success, experienced",
+        title="share of variance explained before and after first sight; success, experienced",
     )  # fmt: skip
     places = [1 + i for i, each in enumerate(LESIONS) if each.harmless and each.manner == "silenced"]
     for condition, classes in behaviours.items():
+        table.add_row(TITLES[condition])
         for kind, behaviour in classes.items():
             if len(behaviour.seeds):
                 success = behaviour.success(known=True).mean(axis=0)
@@ -77,8 +75,9 @@ def _table(behaviours: Behaviours) -> Table:
                 shown = [_percent(value) for value in values]
             else:
                 shown = ["-"] * 5
-            counts = (str(int(behaviour.agents.sum())), str(len(behaviour.seeds)))
-            table.add_row(TITLES[condition], SHORT[kind], *counts, *shown)
+            counts = f"{int(behaviour.agents.sum())} ({len(behaviour.seeds)})"
+            table.add_row(f"  {SHORT[kind]}", counts, *shown)
+        table.add_section()
     return table
 
 

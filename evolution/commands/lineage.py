@@ -52,7 +52,7 @@ class LineageCommand:
             raise ValueError(f"asked for {self.trials_per_area} trials per area; there must be at least 1")
         console = Console()
         lineage = trace_lineage(folder, self.generation, self.rank)
-        with Progress(console=console, transient=True) as bar:
+        with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
             task = bar.add_task("ancestors")
             scores = score_lineage(
                 lineage,

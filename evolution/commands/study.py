@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from tyro.conf import Positional, arg
 
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from evolution.study.declared.rows import MeasuredRun
     from evolution.study.variants import Part
 
+# Where what a part's variants stand on was evolved for as long, with the same seeds.
+BEFORE: Final = {"confirmation": "finalists"}
+
 
 @dataclass(frozen=True)
 class StudyCommand:
@@ -34,11 +37,13 @@ class StudyCommand:
     part: Literal[
         "screening", "finalists", "around", "confirmation", "factorial", "fresh", "less-one", "hundred"
     ] = "screening"
-    """screening (3000 generations, one reading at a time and the geometry in depth), finalists (the whole
-    experiment under the default and the three that came nearest to the paper in the screening), around (as
-    the screening: other sizes of mutations, and one reading at a time on top of the favoured size) or
-    confirmation (the whole experiment under the two that came nearest around it, and under both together,
-    with fresh seeds)."""
+    """Of the first study: screening (3000 generations, one reading at a time and the geometry in depth),
+    finalists (the whole experiment under the default and the three that came nearest to the paper), around
+    (as the screening, on top of the favoured size of mutations) and confirmation (the whole experiment under
+    the two that came nearest around it, and both together, with fresh seeds). Of the declared one
+    (docs/declaration.md): factorial (all readings mixed), fresh (the worlds it puts nearest to the paper and
+    others, with fresh seeds), less-one (the winner with one departure taken back at a time) and hundred (a
+    hundred runs of either condition under the default)."""
 
     output: Path = Path("runs/readings")
     """Folder of the study; each part has a folder in it."""
@@ -47,7 +52,7 @@ class StudyCommand:
     """Runs of each variant and condition, by default what the part asks for."""
 
     generations: int | None = None
-    """Of each run, by default what the part asks for."""
+    """Generations of each run, by default what the part asks for."""
 
     jobs: int | None = None
     """Processes at a time. By default as many as there are processors."""
@@ -179,12 +184,14 @@ def _evolve_and_measure(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Fa
 
 
 def _write(plan: Plan, part: Part, folder: Path) -> None:
+    from evolution.experiments.plan_file import read_plan
     from evolution.study.results import measured_variants, write_study
 
     variants = measured_variants(plan)
     if not variants:
         raise ValueError(f"no run in {plan.folder} is measured yet; leave --now away to evolve them")
-    for path in write_study(variants, part, folder):
+    before = read_plan(plan.folder.parent / BEFORE[part.name]) if part.name in BEFORE else None
+    for path in write_study(variants, part, folder, measured_variants(before) if before else ()):
         print(path)
     n = sum(len(each.runs) for each in variants)
     if n < len(plan.configs):

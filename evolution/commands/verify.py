@@ -1,4 +1,4 @@
-"""`wordarm verify`: whether a run is what its config.toml gives; its damaged files made again."""
+"""`wordarm verify`: whether a run is what its config.toml gives, or an archive what was packed."""
 
 from __future__ import annotations
 
@@ -24,10 +24,11 @@ class Verify:
 
     Exit code 1 if anything differs or cannot be read. By default every generation is scored again; otherwise
     the others are bred from the fitness that was recorded, and parents and best genotypes are compared.
+    An archive of results is compared with its checksums instead, and the first damaged file is named.
     """
 
-    run_folder: Annotated[Positional[Path], arg(metavar="RUN")]
-    """Run folder, finished or not."""
+    run_folder: Annotated[Positional[Path], arg(metavar="RUN|ARCHIVE")]
+    """Run folder, finished or not; or an archive that `wordarm analyse --archive` made."""
 
     generations: str | None = None
     """Score only these again, such as 100-199, or 42."""
@@ -38,8 +39,15 @@ class Verify:
     repair: bool = False
     """Instead of comparing, compute the damaged or missing files again, with the bits they had."""
 
+    unpack: Path | None = None
+    """Of an archive that is whole, write its files into a new folder in this one."""
+
     def run(self) -> int:
         """Compare and print the verdict, or repair."""
+        if self.run_folder.is_file():
+            return self._check_archive()
+        if self.unpack is not None:
+            raise ValueError(f"--unpack is about archives, which {self.run_folder} is not")
         if self.repair:
             return self._repair()
         return self._compare()
@@ -51,6 +59,23 @@ class Verify:
 
         n_repaired = repair(self.run_folder, print)
         print(f"{self.run_folder} is sound" + (f": {n_repaired} files repaired" if n_repaired else ""))
+        return 0
+
+    def _check_archive(self) -> int:
+        """Compare an archive with its checksums, and unpack it if that is asked for."""
+        from evolution.runs.storage import DamagedFileError
+        from evolution.trust.archive import read_archive, unpack
+
+        if self.repair or self.generations is not None or self.sample is not None:
+            raise ValueError("--repair, --generations and --sample are about runs; leave them out")
+        try:
+            files = read_archive(self.run_folder)
+        except DamagedFileError as error:
+            print(error)
+            return DIFFERS
+        print(f"{self.run_folder} is whole: {len(files)} files are as they were packed")
+        if self.unpack is not None:
+            print(unpack(files, self.unpack))
         return 0
 
     def _compare(self) -> int:

@@ -8,16 +8,16 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Patch, Rectangle
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Instruction, ObjectWord, Readings
 from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, DT
-from arm2d.drawing import INK, OBJECT_COLOURS, look
+from arm2d.drawing import FULL, INK, OBJECT_COLOURS, SMALL, STYLE, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
 from evolution.agents.lesions import LESIONS, LesionScores
-from evolution.figures.page import FAINT, STYLE, SUCCESS_MAP, beside, head, ink_on
+from evolution.figures.page import FAINT, SUCCESS_MAP, beside, head, ink_on
 
 FAILED: Final = "#A8A49B"
 DASHES: Final = (0, (4, 2.5))
@@ -27,10 +27,10 @@ SHOWN_PER_AREA: Final = 10
 def trajectories_figure(behaviour: Behaviour, readings: Readings, origin: str = "") -> Figure:
     """A page with both joint angles over time, a panel for each instruction."""
     with look(STYLE):
-        figure = Figure(figsize=(9.2, 9.4))
+        figure = Figure(figsize=(FULL, 7.3))
         head(figure, "What the arm does", origin)
         grid = figure.add_gridspec(
-            3, 3, left=0.085, right=0.985, top=0.885, bottom=0.085, hspace=0.24, wspace=0.08
+            3, 3, left=0.075, right=0.985, top=0.905, bottom=0.085, hspace=0.24, wspace=0.08
         )
         end = DT * behaviour.steps.max()
         for place, instruction in enumerate(behaviour.condition.instructions):
@@ -46,7 +46,7 @@ def trajectories_figure(behaviour: Behaviour, readings: Readings, origin: str = 
                 above.set_ylabel("alpha [°]")
                 below.set_ylabel("beta [°]")
             below.set_xlabel("time [s]" if place > 5 else "")
-        figure.legend(handles=trajectory_handles(), loc="lower center", frameon=False, ncols=5, fontsize=8.5)
+        figure.legend(handles=trajectory_handles(), loc="lower center", ncols=6)
     return figure
 
 
@@ -60,8 +60,8 @@ def draw_alpha(axes: Axes, behaviour: Behaviour, instruction: Instruction, readi
     colour = OBJECT_COLOURS[instruction.object]
     rate = f"{100 * behaviour.success[behaviour.of(instruction)].mean():.0f} %"
     never_met = ", never met" if instruction in NON_EXPERIENCED else ""
-    axes.set_title(f"{instruction}", loc="left", fontsize=10, fontweight="bold", color=colour, pad=4)
-    axes.set_title(f"{rate}{never_met}", loc="right", fontsize=9, color=INK, pad=4)
+    axes.set_title(f"{instruction}", fontsize="medium", fontweight="bold", color=colour, pad=3)
+    axes.set_title(f"{rate}{never_met}", loc="right", fontsize=SMALL, color=INK, pad=3)
     _frame(axes, instruction)
 
 
@@ -83,37 +83,38 @@ def _draw_lines(
             colour = OBJECT_COLOURS[instruction.object] if good else FAILED
             style = "-" if area == 0 else (0, (3, 1.2))
             axes.plot(
-                DT * np.arange(angles.shape[1]), angles[trial], color=colour, ls=style, lw=0.9, alpha=0.8
+                DT * np.arange(angles.shape[1]), angles[trial], color=colour, ls=style, lw=0.7, alpha=0.8
             )
             events = ((behaviour.first_sight[trial], "o", "white"), (behaviour.first_touch[trial], "D", INK))
             for row, marker, face in events:
                 if row != NEVER:
                     axes.plot(
-                        DT * row, angles[trial, row], marker, ms=2.8, mfc=face, mec=INK, mew=0.5, zorder=4
+                        DT * row, angles[trial, row], marker, ms=2.2, mfc=face, mec=INK, mew=0.4, zorder=4
                     )
 
 
-def trajectory_handles() -> list[Line2D]:
+def trajectory_handles() -> list[Line2D | Patch]:
     """What lines and markers mean."""
     return [
-        Line2D([], [], color=INK, lw=1.2, label="from the right"),
-        Line2D([], [], color=INK, lw=1.2, ls=(0, (3, 1.2)), label="from the left"),
-        Line2D([], [], color=FAILED, lw=1.2, label="not carried out"),
+        Line2D([], [], color=INK, label="from the right"),
+        Line2D([], [], color=INK, ls=(0, (3, 1.2)), label="from the left"),
+        Line2D([], [], color=FAILED, label="not carried out"),
         Line2D([], [], ls="", marker="o", ms=4, mfc="white", mec=INK, label="first sight of the target"),
         Line2D([], [], ls="", marker="D", ms=4, color=INK, label="first touch of the target"),
+        Patch(fc=FAINT, alpha=0.2, lw=0, label="the objects' sectors"),
     ]
 
 
 def lesions_figure(scores: LesionScores, origin: str = "") -> Figure:
     """A page with success without and with each lesion, a row for each instruction; a mean over agents."""
     with look(STYLE):
-        figure = Figure(figsize=(9.2, 5.3))
+        figure = Figure(figsize=(FULL, 4.0))
         head(figure, "Which word is needed, and when", origin)
-        axes = figure.add_axes((0.155, 0.095, 0.83, 0.63))
+        axes = figure.add_axes((0.14, 0.085, 0.85, 0.65))
         draw_lesions(axes, scores)
         note = f"Success in {2 * scores.per_area} trials, the same in every column. "
-        note += "Exchanged: a mean over both other words. Dashed: never met during evolution."
-        figure.text(0.155, 0.03, note, fontsize=8, color=FAINT)
+        note += "Exchanged: a mean over both other words. Dashed: never met."
+        figure.text(0.14, 0.03, note, fontsize=SMALL, color=FAINT)
     return figure
 
 
@@ -127,28 +128,26 @@ def draw_lesions(axes: Axes, scores: LesionScores) -> None:
             axes.add_patch(
                 Rectangle((place + 0.02, row + 0.04), 0.96, 0.92, fc=SUCCESS_MAP(share), ec="none")
             )
-            number = axes.text(place + 0.5, row + 0.52, f"{100 * share:.0f}", fontsize=9)
+            number = axes.text(place + 0.5, row + 0.52, f"{100 * share:.0f}")
             number.set(ha="center", va="center", color=ink_on(share))
         if instruction in NON_EXPERIENCED:
             frame = Rectangle((-0.04, row - 0.02), places[-1] + 1.08, 1.04, fill=False, ec=FAINT)
-            frame.set(linestyle=DASHES, linewidth=1.2, zorder=3, clip_on=False)
+            frame.set(linestyle=DASHES, linewidth=0.9, zorder=3, clip_on=False)
             axes.add_patch(frame)
     axes.set(xlim=(0, places[-1] + 1), ylim=(9, 0))
     axes.set_yticks(np.arange(9) + 0.5, [str(word) for word in scores.condition.instructions])
     for label, instruction in zip(axes.get_yticklabels(), scores.condition.instructions, strict=True):
         label.set(color=OBJECT_COLOURS[instruction.object], fontweight="bold")
     names = ["intact", *(f"{lesion.word} word\n{lesion.manner}\n{lesion.time}" for lesion in LESIONS)]
-    axes.set_xticks(places + 0.5, names, fontsize=8)
-    axes.tick_params(length=0, pad=6, top=False, labeltop=True, labelbottom=False)
+    axes.set_xticks(places + 0.5, names)
+    axes.tick_params(length=0, pad=4, top=False, labeltop=True, labelbottom=False)
     axes.spines[:].set_visible(False)
     for start, text in ((1, "the paper's agent would not mind"), (5, "the paper's agent would fail")):
         middle = (places[start] + places[start + 3] + 1) / 2
-        beside(axes, text, (middle, 0), (0, 48), ha="center", fontsize=9, fontweight="bold")
+        beside(axes, text, (middle, 0), (0, 34), ha="center", fontweight="bold")
 
 
 def _frame(axes: Axes, instruction: Instruction) -> None:
     """Plain axes, or a dashed frame round what was never met."""
-    axes.tick_params(labelsize=8, color=FAINT, length=2.5)
-    axes.spines[["top", "right"]].set_visible(False)
     if instruction in NON_EXPERIENCED:
         axes.spines[:].set(visible=True, linestyle=DASHES, color=OBJECT_COLOURS[instruction.object])

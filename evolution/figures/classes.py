@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,14 +12,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from arm2d import Condition
-from arm2d.drawing import INK, look
+from arm2d.drawing import FULL, INK, SMALL, STYLE, look
 from evolution.agents.classes import PARTS
 from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass
 from evolution.agents.variance import WINDOWS
-from evolution.figures.generalisers import CLASS_COLOURS
-from evolution.figures.neurons import SHARE_COLOURS, SHARE_LABELS
-from evolution.figures.page import FAINT, STYLE
+from evolution.figures.neurons import SHARE_LABELS
+from evolution.figures.page import CLASS_COLOURS, FAINT, SHARE_COLOURS
 from evolution.results.classes import ClassBehaviour
 from evolution.results.wording import TITLES
 
@@ -37,18 +36,16 @@ SHORT: Final = {
 def classes_figure(behaviours: Behaviours) -> Figure:
     """A row for each condition: shares of variance before and after sight; success with each lesion."""
     with look(STYLE):
-        figure = Figure(figsize=(10.4, 0.9 + 4.3 * len(behaviours)), layout="constrained")
+        figure = Figure(figsize=(FULL, 0.7 + 3.0 * len(behaviours)), layout="constrained")
         panels = figure.subplots(len(behaviours), 2, squeeze=False, width_ratios=(1, 1.15))
         for (left, right), (condition, classes) in zip(panels, behaviours.items(), strict=True):
             draw_shares(left, list(classes.values()))
             draw_success(right, list(classes.values()))
-            left.set_title(f"{TITLES[condition]}: what the neurons follow", loc="left", fontweight="bold")
-            right.set_title("what is left without a word", loc="left", fontweight="bold")
+            left.set_title(f"{TITLES[condition]}: what the neurons follow", fontweight="bold")
+            right.set_title("what is left without a word", fontweight="bold")
         shares = [Patch(color=SHARE_COLOURS[part], label=SHARE_LABELS[part]) for part in PARTS]
-        figure.legend(handles=shares, loc="outside lower left", frameon=False, ncols=2, fontsize=8.5)
-        figure.legend(
-            handles=_class_handles(), loc="outside lower right", frameon=False, ncols=3, fontsize=8.5
-        )
+        figure.legend(handles=shares, loc="outside lower left", ncols=2)
+        figure.legend(handles=_class_handles(), loc="outside lower right", ncols=3)
     return figure
 
 
@@ -57,15 +54,15 @@ def draw_shares(axes: Axes, classes: Sequence[ClassBehaviour]) -> None:
     places, labels = [], []
     for group, window in enumerate(SHOWN_WINDOWS):
         start = group * (len(classes) + 1.1)
-        axes.text(0, start - 0.62, list(WINDOWS)[window], fontsize=8.5, fontweight="bold", va="center")
+        axes.text(0, start - 0.62, list(WINDOWS)[window], fontweight="bold", va="center")
         for row, behaviour in enumerate(classes):
             places.append(start + row)
             labels.append(f"{SHORT[behaviour.kind]}\n{_count(behaviour)}")
             _draw_bar(axes, places[-1], behaviour, window)
-    axes.set_yticks(places, labels, fontsize=8)
+    axes.set_yticks(places, labels)
     axes.set(xlim=(0, 100), ylim=(places[-1] + 0.6, -1.0), xlabel="share of the variance [%]")
     axes.tick_params(axis="y", length=0)
-    axes.spines[["top", "right", "left"]].set_visible(False)
+    axes.spines["left"].set_visible(False)
 
 
 def _draw_bar(axes: Axes, place: float, behaviour: ClassBehaviour, window: int) -> None:
@@ -73,7 +70,7 @@ def _draw_bar(axes: Axes, place: float, behaviour: ClassBehaviour, window: int) 
     values = values[np.isfinite(values).all(axis=1)]
     if not len(values):
         why = "no such agent" if not len(behaviour.seeds) else "too few trials come so far"
-        axes.text(1, place, why, va="center", fontsize=8, color=FAINT)
+        axes.text(1, place, why, va="center", fontsize=SMALL, color=FAINT)
         return
     left = 0.0
     for part, share in zip(PARTS, 100 * values.mean(axis=0), strict=True):
@@ -81,7 +78,7 @@ def _draw_bar(axes: Axes, place: float, behaviour: ClassBehaviour, window: int) 
         if share >= 9 and part != "rest":
             ink = "white" if part == "action" else INK
             axes.text(
-                left + share / 2, place, f"{share:.0f}", ha="center", va="center", fontsize=8, color=ink
+                left + share / 2, place, f"{share:.0f}", ha="center", va="center", fontsize=SMALL, color=ink
             )
         left += share
 
@@ -95,17 +92,17 @@ def draw_success(axes: Axes, classes: Sequence[ClassBehaviour]) -> None:
             continue
         colour, success = CLASS_COLOURS[behaviour.kind], 100 * behaviour.success(known=True)
         axes.plot(
-            success.T, np.tile(places + offset, (len(success), 1)).T, "o", ms=3, alpha=0.35, color=colour
+            success.T, np.tile(places + offset, (len(success), 1)).T, "o", ms=2.4, alpha=0.35, color=colour
         )
-        axes.plot(success.mean(axis=0), places + offset, "o", ms=6.5, color=colour, mec="white", mew=0.7)
+        axes.plot(success.mean(axis=0), places + offset, "o", ms=4.8, color=colour, mec="white", mew=0.6)
     for first, text in ((1, "the paper's agent would not mind"), (1 + harmless, "it would fail")):
-        axes.text(0, places[first] - 0.72, text, fontsize=8.5, fontweight="bold", va="center")
+        axes.text(0, places[first] - 0.72, text, fontweight="bold", va="center")
     names = ["intact", *(f"{lesion.word} word {lesion.manner} {lesion.time}" for lesion in LESIONS)]
-    axes.set_yticks(places, names, fontsize=8)
+    axes.set_yticks(places, names)
     axes.set(xlim=(-2, 102), ylim=(places[-1] + 0.6, -0.7), xlabel="success, experienced instructions [%]")
     axes.grid(axis="y", color=FAINT, alpha=0.25, lw=0.5)
     axes.tick_params(axis="y", length=0)
-    axes.spines[["top", "right", "left"]].set_visible(False)
+    axes.spines["left"].set_visible(False)
 
 
 def _count(behaviour: ClassBehaviour) -> str:
@@ -117,7 +114,12 @@ def _count(behaviour: ClassBehaviour) -> str:
 
 
 def _class_handles() -> list[Line2D]:
+    dot: dict[str, Any] = {"ls": "", "marker": "o"}
     return [
-        Line2D([], [], ls="", marker="o", ms=6.5, color=colour, mec="white", label=str(kind))
-        for kind, colour in CLASS_COLOURS.items()
+        *(
+            Line2D([], [], **dot, ms=4.8, color=colour, mec="white", label=str(kind))
+            for kind, colour in CLASS_COLOURS.items()
+        ),
+        Line2D([], [], **dot, ms=4.8, color=INK, mec="white", label="a mean over runs"),
+        Line2D([], [], **dot, ms=2.4, color=INK, alpha=0.35, mew=0, label="a run"),
     ]

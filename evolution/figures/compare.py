@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from arm2d import Condition
-from arm2d.drawing import INK, look
+from arm2d.drawing import FULL, INK, SMALL, STYLE, look
 from evolution.agents.subtasks import SUBTASKS
 from evolution.figures.classes import SHORT
-from evolution.figures.page import FAINT, STYLE
+from evolution.figures.page import FAINT, PAPER, PAPER_DASHES, SERIES
 from evolution.results import published
 from evolution.results.key_numbers import (
     AT_LIMIT,
@@ -30,8 +30,6 @@ from evolution.results.records import Results
 from evolution.results.wording import TITLES
 from evolution.search.settings import LARGEST_FITNESS
 
-PAPER: Final = "#8A857A"
-OURS: Final = "#12545F"
 # Title of each panel and the key numbers in it, with their short names.
 COUNTS: Final = {AT_LIMIT: "end at 18/7", SOLVED: "solve all 28 trials", WITH_FULL: "have generalisers"}
 TOPS: Final = {top_name(name): f"sub-task {name}" for name in SUBTASKS}
@@ -46,39 +44,44 @@ def compare_figure(experiments: Mapping[str, Results]) -> Figure:
     """A row of four panels for each condition: plateaus, runs, category 10, transitions."""
     conditions = by_condition(experiments)
     names = list(experiments)
-    height = 0.9 + len(conditions) * (1.6 + 0.5 * len(names))
+    height = 0.5 + len(conditions) * (1.4 + 0.3 * len(names))
     with look(STYLE):
-        figure = Figure(figsize=(11.5, height), layout="constrained")
+        figure = Figure(figsize=(FULL, height), layout="constrained")
         panels = figure.subplots(len(conditions), 4, squeeze=False, width_ratios=(1, 1, 1.1, 1.1))
         lowest = _lowest(conditions)
         for row, (condition, by_name) in zip(panels, conditions.items(), strict=True):
             by_number = {name: {number.name: number for number in by_name.get(name, [])} for name in names}
             draw_plateaus(row[0], by_number)
             row[0].set_xlim(lowest - 0.03, LARGEST_FITNESS + 0.03)
-            row[0].set_title(TITLES[condition], loc="left", fontweight="bold")
+            row[0].set_title(TITLES[condition], fontweight="bold")
             draw_numbers(row[1], by_number, COUNTS, runs=True)
             draw_numbers(row[2], by_number, TOPS)
             draw_numbers(row[3], by_number, PASSES)
             for axes, label in zip(row, _labels(), strict=True):
-                axes.set_xlabel(label, fontsize=9)
-        place = {"loc": "outside lower center", "frameon": False, "ncols": 6, "fontsize": 8.5}
-        figure.legend(handles=_handles(names), **place)
+                axes.set_xlabel(label, fontsize=SMALL)
+        figure.legend(handles=_handles(names), loc="outside lower center", ncols=6)
     return figure
 
 
 def draw_plateaus(axes: Axes, by_number: Mapping[str, Mapping[str, KeyNumber]]) -> None:
     """Each run's plateau, a row for each experiment; the largest fitness as a line."""
-    axes.axvline(LARGEST_FITNESS, color=FAINT, lw=1.0, ls=(0, (4, 3)))
+    axes.axvline(LARGEST_FITNESS, color=FAINT, lw=0.8, ls=PAPER_DASHES)
     for row, (name, numbers) in enumerate(by_number.items()):
         if PLATEAU in numbers:
             values = np.sort(numbers[PLATEAU].runs)
             spread = 0.16 * (np.arange(len(values)) % 3 - 1)
             axes.plot(
-                values, row + spread, "o", ms=4.5, alpha=0.75, color=_colour(name, by_number), mec="white"
+                values,
+                row + spread,
+                "o",
+                ms=3.4,
+                alpha=0.75,
+                color=_colour(name, by_number),
+                mec="white",
+                mew=0.5,
             )
-    axes.set_yticks(range(len(by_number)), list(by_number), fontsize=8.5)
+    axes.set_yticks(range(len(by_number)), list(by_number))
     axes.set_ylim(len(by_number) - 0.4, -0.6)
-    axes.spines[["top", "right"]].set_visible(False)
 
 
 def draw_numbers(
@@ -99,16 +102,16 @@ def draw_numbers(
             colour, scale = _colour(name, by_number), 100 / max(number.of, 1) if runs else 100
             if number.published is not None:
                 theirs = 100 * number.published / (published.RUNS if runs else 1)
-                axes.plot([theirs] * 2, [row - 0.38, row + 0.38], color=PAPER, lw=2.6, solid_capstyle="butt")
+                axes.plot([theirs] * 2, [row - 0.38, row + 0.38], color=PAPER, lw=1.8, solid_capstyle="butt")
             if len(number.runs):
                 shares = 100 * number.runs
-                axes.plot(shares, np.full(len(shares), row + offset), "o", ms=3, alpha=0.3, color=colour)
+                axes.plot(shares, np.full(len(shares), row + offset), "o", ms=2.4, alpha=0.3, color=colour)
             if np.isfinite(number.ours):
-                axes.plot(scale * number.ours, row + offset, "o", ms=6.5, color=colour, mec="white", mew=0.7)
-    axes.set_yticks(range(len(shown)), list(shown.values()), fontsize=8.5)
+                axes.plot(scale * number.ours, row + offset, "o", ms=4.8, color=colour, mec="white", mew=0.6)
+    axes.set_yticks(range(len(shown)), list(shown.values()))
     axes.set(xlim=(-3, 103), ylim=(len(shown) - 0.4, -0.6))
     axes.grid(axis="y", color=FAINT, alpha=0.25, lw=0.5)
-    axes.spines[["top", "right", "left"]].set_visible(False)
+    axes.spines["left"].set_visible(False)
     axes.tick_params(axis="y", length=0)
 
 
@@ -121,8 +124,7 @@ def _lowest(conditions: Mapping[Condition, Mapping[str, list[KeyNumber]]]) -> fl
 
 def _colour(name: str, experiments: Mapping[str, object]) -> str:
     """From deep teal on, one colour for each experiment."""
-    palette = (OURS, "#C2572B", "#7B5EA7", "#3E7D3A", "#B08D1E", "#444444")
-    return palette[list(experiments).index(name) % len(palette)]
+    return SERIES[list(experiments).index(name) % len(SERIES)]
 
 
 def _labels() -> tuple[str, str, str, str]:
@@ -136,9 +138,11 @@ def _labels() -> tuple[str, str, str, str]:
 
 def _handles(names: list[str]) -> list[Line2D]:
     handles = [
-        Line2D([], [], ls="", marker="o", ms=6.5, color=_colour(name, dict.fromkeys(names)), label=name)
+        Line2D([], [], ls="", marker="o", ms=4.8, color=_colour(name, dict.fromkeys(names)), label=name)
         for name in names
     ]
-    handles.append(Line2D([], [], color=PAPER, lw=2.6, label="published"))
-    handles.append(Line2D([], [], ls="", marker="o", ms=3, alpha=0.5, color=INK, label="a single run"))
+    handles.append(Line2D([], [], color=PAPER, lw=1.8, label="the paper"))
+    handles.append(Line2D([], [], ls="", marker="o", ms=2.4, alpha=0.5, color=INK, label="a run"))
+    limit = {"color": FAINT, "lw": 0.8, "ls": PAPER_DASHES}
+    handles.append(Line2D([], [], **limit, label="18/7, the largest fitness"))
     return handles

@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction, ObjectWord, Readings, Trials, record_trial
 from arm2d import constants as c
-from arm2d.drawing import ARM, CAMERA, INK, OBJECT_COLOURS, Scene, arm_points, look, state_at
+from arm2d.drawing import ARM, CAMERA, INK, OBJECT_COLOURS, STYLE, Scene, arm_points, look, state_at
 from arm2d.trials import TrialRecord
-from evolution.figures.page import STYLE, svg_bytes
+from evolution.figures.page import svg_bytes
 from evolution.runs.sources import find_agent
 from evolution.runs.storage import write_atomically
 
@@ -95,13 +95,15 @@ def _draw_world(axes: Axes, record: TrialRecord) -> None:
     step = max(0, int(np.argmax(touched)) - STEPS_BEFORE_CONTACT)
     Scene(axes, record, caption=False).show(step)
     axes.set(xlim=(-178, 178), ylim=(-62, 182), facecolor="white")
+    for text in axes.texts:
+        text.set_visible(False)  # scale and clock
     alpha, beta, discs, _ = state_at(record, step)
     joint, tip = arm_points(alpha, beta)
     forearm = (joint + tip) / 2
-    label = {"fontsize": 9.5, "color": QUIET, "ha": "center", "va": "center"}
+    label = {"fontsize": 10, "color": QUIET, "ha": "center", "va": "center"}
     axes.text(0, -17, "shoulder", **label)
     axes.text(joint[0] + 25, joint[1] - 12, "elbow", **label)
-    axes.text(forearm[0] - 50, forearm[1] + 12, "forearm, feels\nboth its sides", **label)
+    axes.text(forearm[0] - 56, forearm[1] + 12, "forearm, feels\nboth its sides", **label)
     axes.text(*CAMERA_LABEL, "camera with\nthree sectors", **label)
     for disc, word in zip(discs, ObjectWord, strict=True):
         axes.text(
@@ -149,7 +151,7 @@ def _draw_network(axes: Axes, instruction: Instruction) -> None:
     for y, text in ((44.0, "turn the\nshoulder"), (22.0, "bend the\nelbow")):
         axes.text(84.5, y, text, fontsize=10, va="center", color=INK)
     for x, text in ((41, "18 inputs"), (62, "3 neurons with\nmemory"), (80, "4 motors")):
-        axes.text(x, 3.5, text, fontsize=9, color=QUIET, ha="center", va="center")
+        axes.text(x, 3.5, text, fontsize=9.5, color=QUIET, ha="center", va="center")
 
 
 def _draw_words(axes: Axes, instruction: Instruction) -> None:
@@ -171,7 +173,7 @@ def _draw_words(axes: Axes, instruction: Instruction) -> None:
         heights = _input_heights()[3 * group : 3 * group + 3]
         axes.add_patch(
             FancyArrowPatch(
-                (18.5, top - 5.6), (27.0, heights[1]), arrowstyle="-|>", mutation_scale=9, lw=1.1, color=QUIET
+                (18.5, top - 5.6), (25.0, heights[1]), arrowstyle="-|>", mutation_scale=9, lw=1.1, color=QUIET
             )
         )
 
@@ -193,7 +195,7 @@ def _draw_inputs(axes: Axes, heights: list[float]) -> None:
         own = [next(places) for _ in range(sense.inputs)]
         for y in own:
             axes.add_patch(Circle((41, y), 1.0, fc=sense.colour, ec=ARM, lw=0.7, zorder=3))
-        axes.text(38.8, float(np.mean(own)), sense.name, fontsize=8.5, ha="right", va="center", color=INK)
+        axes.text(38.8, float(np.mean(own)), sense.name, fontsize=9.5, ha="right", va="center", color=INK)
 
 
 def main(path: Path) -> None:

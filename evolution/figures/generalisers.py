@@ -15,23 +15,17 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from arm2d.drawing import INK, look
+from arm2d.drawing import FULL, INK, SMALL, STYLE, look
 from evolution.agents.subtasks import AgentClass, classify
-from evolution.figures.page import FAINT, RIGHT_END, STYLE, beside
+from evolution.figures.page import CLASS_COLOURS, FAINT, RIGHT_END, beside
 from evolution.results.generalisers import Generalisers
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES
 from evolution.search.settings import N_BEST
 
-FULL_COLOUR: Final = "#B0296F"
-PARTIAL_COLOUR: Final = "#E69F00"
-CLASS_COLOURS: Final = {
-    AgentClass.FULL: FULL_COLOUR,
-    AgentClass.PARTIAL: PARTIAL_COLOUR,
-    AgentClass.NONE: "#7A7A7A",
-}
+FULL_COLOUR, PARTIAL_COLOUR = CLASS_COLOURS[AgentClass.FULL], CLASS_COLOURS[AgentClass.PARTIAL]
 # Heights of rows: of runs with a fully compositional agent, with partial ones only, with neither [in].
-TALL, MIDDLE, FLAT = 0.7, 0.42, 0.19
+TALL, MIDDLE, FLAT = 0.55, 0.34, 0.145
 # Generations that share one cell of the drawing of partial agents.
 CELL: Final = 5
 # Beyond so many marks in a run they are drawn smaller.
@@ -45,13 +39,13 @@ def generalisers_figure(results: Results) -> Figure:
     ]
     tall = [max(sum(own), FLAT) for own in heights]
     with look(STYLE):
-        figure = Figure(figsize=(9.2, 1.5 + sum(tall) + 0.45 * len(tall)), layout="constrained")
+        figure = Figure(figsize=(FULL, 0.7 + sum(tall) + 0.3 * len(tall)), layout="constrained")
         panels = figure.subplots(len(tall), 1, sharex=True, squeeze=False, height_ratios=tall)[:, 0]
         for axes, own, (condition, found) in zip(panels, heights, results.conditions.items(), strict=True):
             _draw_condition(axes, found, own)
-            axes.set_title(TITLES[condition], loc="left", fontweight="bold")
+            axes.set_title(TITLES[condition], fontweight="bold")
         panels[-1].set_xlabel("generation")
-        figure.legend(handles=_handles(), loc="outside lower center", frameon=False, ncols=2, fontsize=8.5)
+        figure.legend(handles=_handles(), loc="outside lower center", ncols=2)
     return figure
 
 
@@ -74,12 +68,13 @@ def _draw_condition(axes: Axes, results: ConditionResults, heights: list[float])
             draw_marks(axes, results.generalisers[run], top - 0.04, top - height + 0.04)
         _note(axes, results, run, middles[-1])
         top -= height
-    axes.set_yticks(middles, [f"seed {seed}" for seed in results.seeds], fontsize=8)
+    axes.set_yticks(middles, [str(seed) for seed in results.seeds])
+    axes.set_ylabel("seed")
     axes.set_ylim(min(top, -FLAT), 0)
     if len(results.generations):
         axes.set_xlim(results.generations[0], results.generations[-1] + 1)
     axes.tick_params(axis="y", length=0)
-    axes.spines[["top", "right", "left"]].set_visible(False)
+    axes.spines["left"].set_visible(False)
 
 
 def draw_density(
@@ -99,7 +94,7 @@ def draw_density(
 def draw_marks(axes: Axes, found: Generalisers, top: float, bottom: float) -> None:
     """Fully compositional agents, each in the lane of its rank, the generation's best in the top lane."""
     lanes = top - (found.ranks + 0.5) * (top - bottom) / N_BEST
-    size = 7.5 if len(found) <= MANY else 4.0
+    size = 5.5 if len(found) <= MANY else 3.0
     look = {"color": FULL_COLOUR, "mec": "white", "mew": 0.5, "zorder": 3, "clip_on": False}
     axes.plot(found.generations, lanes, "d", ms=size, **look)
 
@@ -109,7 +104,7 @@ def _note(axes: Axes, results: ConditionResults, run: int, middle: float) -> Non
     full, partial = (int(results.members[kind][run]) for kind in (AgentClass.FULL, AgentClass.PARTIAL))
     text = f"{full:,} fully, {partial:,} partially" if full or partial else "none"
     look = {"color": INK, "fontweight": "bold"} if full else {"color": FAINT}
-    beside(axes, text, (1.0, middle), (6, 0), xycoords=RIGHT_END, va="center", fontsize=8, **look)
+    beside(axes, text, (1.0, middle), (6, 0), xycoords=RIGHT_END, va="center", fontsize=SMALL, **look)
 
 
 def _members(results: ConditionResults, run: int, kind: AgentClass) -> NDArray[np.bool_]:
@@ -120,6 +115,6 @@ def _members(results: ConditionResults, run: int, kind: AgentClass) -> NDArray[n
 
 
 def _handles() -> list[Line2D | Patch]:
-    mark = Line2D([], [], ls="", marker="d", ms=7.5, color=FULL_COLOUR, mec="white")
+    mark = Line2D([], [], ls="", marker="d", ms=5.5, color=FULL_COLOUR, mec="white")
     mark.set_label("a fully compositional agent; lanes: the five best of a generation, the best on top")
     return [mark, Patch(color=PARTIAL_COLOUR, alpha=0.75, lw=0, label="partially compositional agents")]

@@ -12,20 +12,19 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from arm2d import NON_EXPERIENCED, Instruction
-from arm2d.drawing import INK, OBJECT_COLOURS, look
+from arm2d.drawing import FULL, INK, OBJECT_COLOURS, SMALL, STYLE, look
 from arm2d.records import brief
 from evolution.agents.firsts import NEVER
 from evolution.agents.lineage_scores import IN_A_ROW, LineageScores, Skills
-from evolution.figures.page import FAINT, STYLE, beside, head
+from evolution.figures.page import FAINT, SHARE_COLOURS, beside, head
 
-ROW_HEIGHT: Final = 0.36  # [in]
-GROUP_GAP: Final = 0.34  # [in]
-HEAD: Final = 0.95  # [in]
-FOOT: Final = 0.85  # [in]
-WIDTH: Final = 8.6  # [in]
+ROW_HEIGHT: Final = 0.28  # [in]
+GROUP_GAP: Final = 0.24  # [in]
+HEAD: Final = 0.7  # [in]
+FOOT: Final = 0.66  # [in]
 LEFT, RIGHT = 0.19, 0.965
 TICKS: Final = (0, 10, 50, 100, 250, 500, 1000, 2000, 3000, 4000, 5000, 6000)
-BENT_COLOUR: Final = "#5B4B8A"
+BENT_COLOUR: Final = SHARE_COLOURS["action"]
 # What lies under a flag's number, so that it can be read on any row.
 PAPER: Final = {"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.88}
 
@@ -61,18 +60,18 @@ def lineage_figure(scores: LineageScores, origin: str = "") -> Figure:
     n_rows = sum(len(rows) for _, rows in groups)
     height = HEAD + FOOT + n_rows * ROW_HEIGHT + len(groups) * GROUP_GAP
     with look(STYLE):
-        figure = Figure(figsize=(WIDTH, height))
-        head(figure, "The agent's line of ancestors", origin, left=0.02)
+        figure = Figure(figsize=(FULL, height))
+        head(figure, "The agent's line of ancestors", origin)
         top = height - HEAD
         for title, rows in groups:
-            figure.text(0.02, (top + 0.05) / height, title, fontsize=9.5, fontweight="bold", va="bottom")
+            figure.text(0.015, (top + 0.03) / height, title, fontweight="bold", va="bottom")
             for row in rows:
                 top -= ROW_HEIGHT
                 axes = figure.add_axes((LEFT, top / height, RIGHT - LEFT, 0.82 * ROW_HEIGHT / height))
                 draw_skill(axes, row)
             top -= GROUP_GAP
         _draw_generations(axes, len(scores.success.shares))
-        figure.text(0.02, 0.14 / height, _legend(scores), fontsize=8, color=FAINT, linespacing=1.4)
+        figure.text(0.015, 0.06 / height, _legend(scores), fontsize=SMALL, color=FAINT, linespacing=1.3)
     return figure
 
 
@@ -111,7 +110,7 @@ def draw_skill(axes: Axes, row: Row) -> None:
     axes.spines[:].set_visible(False)
     axes.set_ylabel(row.label, rotation=0, ha="right", va="center", color=row.colour, fontweight="bold")
     if row.never_met:
-        axes.spines[:].set(visible=True, color=row.colour, linestyle=(0, (4, 2.5)), linewidth=1.1)
+        axes.spines[:].set(visible=True, color=row.colour, linestyle=(0, (4, 2.5)), linewidth=0.8)
         axes.set_ylabel(f"never met   {row.label}", rotation=0, ha="right", va="center", color=row.colour)
     if row.for_good not in (NEVER, row.first):
         _mark(axes, row.for_good, FAINT, leftwards=_place(axes, row.for_good) > 0.94)
@@ -123,8 +122,8 @@ def draw_skill(axes: Axes, row: Row) -> None:
 
 def _mark(axes: Axes, generation: int, colour: str, *, leftwards: bool) -> None:
     """A flag where a skill came, with its number on either side."""
-    axes.axvline(generation, color=colour, lw=1.3)
-    look = {"va": "center", "fontsize": 8, "fontweight": "bold", "color": colour, "bbox": PAPER}
+    axes.axvline(generation, color=colour, lw=1.0)
+    look = {"va": "center", "fontsize": SMALL, "fontweight": "bold", "color": colour, "bbox": PAPER}
     offset, side = ((-4, 0), "right") if leftwards else ((4, 0), "left")
     beside(axes, f"{generation:,}", (generation, 0.5), offset, ha=side, **look)
 
@@ -137,8 +136,7 @@ def _place(axes: Axes, generation: int) -> float:
 def _draw_generations(axes: Axes, n_generations: int) -> None:
     """The axis below the lowest row."""
     ticks = [tick for tick in TICKS if tick < n_generations]
-    axes.set_xticks(ticks, [f"{tick:,}" for tick in ticks], fontsize=8.5)
-    axes.tick_params(axis="x", length=3, color=FAINT)
+    axes.set_xticks(ticks, [f"{tick:,}" for tick in ticks])
     axes.set_xlabel("generation (square-root scale)")
 
 

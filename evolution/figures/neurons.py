@@ -13,14 +13,12 @@ from numpy.typing import NDArray
 
 from arm2d import ObjectWord
 from arm2d.constants import N_INTER
-from arm2d.drawing import INK, OBJECT_COLOURS, look
+from arm2d.drawing import FULL, INK, OBJECT_COLOURS, STYLE, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.variance import VarianceShares, bin_times, events_of, mean_by_instruction
-from evolution.figures.page import FAINT, STYLE, head
+from evolution.figures.page import FAINT, SHARE_COLOURS, head
 
 ACTION_STYLES: Final = ("-", (0, (5, 1.6)), (0, (1.2, 1.4)))
-# Words are no objects: their colours stay clear of blue, green and red.
-SHARE_COLOURS: Final = {"object": "#E3B23C", "action": "#5B4B8A", "crossed": "#B58BB8", "rest": "#E6E3DC"}
 SHARE_LABELS: Final = {
     "object": "object word",
     "action": "action word",
@@ -32,20 +30,20 @@ SHARE_LABELS: Final = {
 def activity_figure(behaviour: Behaviour, origin: str = "") -> Figure:
     """A page with each inter-neuron's mean output round each event, a line for each instruction."""
     with look(STYLE):
-        figure = Figure(figsize=(9.2, 6.6))
+        figure = Figure(figsize=(FULL, 5.0))
         head(figure, "What the three inter-neurons do", origin)
         panels = figure.subplots(N_INTER, 3, sharey=True, sharex="col")
-        figure.subplots_adjust(left=0.075, right=0.985, top=0.845, bottom=0.165, hspace=0.1, wspace=0.06)
+        figure.subplots_adjust(left=0.075, right=0.985, top=0.87, bottom=0.14, hspace=0.1, wspace=0.06)
         for column, (event, rows) in enumerate(events_of(behaviour).items()):
             means = mean_by_instruction(behaviour, rows)
             for neuron in range(N_INTER):
                 draw_activity(panels[neuron, column], means[..., neuron])
-            panels[0, column].set_title(event, loc="left", fontsize=10, fontweight="bold")
+            panels[0, column].set_title(event, fontweight="bold")
             panels[-1, column].set_xlabel("time from it [s]")
         for neuron in range(N_INTER):
             panels[neuron, 0].set_ylabel(f"output of neuron {neuron + 1}")
         handles = object_handles() + _action_handles(behaviour)
-        figure.legend(handles=handles, loc="lower center", frameon=False, ncols=6)
+        figure.legend(handles=handles, loc="lower center", ncols=6)
     return figure
 
 
@@ -54,28 +52,26 @@ def draw_activity(axes: Axes, means: NDArray[np.float64]) -> None:
     axes.axvline(0, color=FAINT, lw=0.8)
     for instruction, mean in enumerate(means):
         colour, style = OBJECT_COLOURS[ObjectWord(instruction % 3)], ACTION_STYLES[instruction // 3]
-        axes.plot(bin_times(), mean, color=colour, ls=style, lw=1.6)
+        axes.plot(bin_times(), mean, color=colour, ls=style, lw=1.1)
     axes.set(ylim=(-0.03, 1.03), yticks=[0, 0.5, 1])
-    axes.tick_params(labelsize=8, color=FAINT, length=2.5)
-    axes.spines[["top", "right"]].set_visible(False)
 
 
 def variance_figure(shares: Mapping[str, VarianceShares], origin: str = "") -> Figure:
     """A page with the shares of variance round each event, by the event's name."""
     with look(STYLE):
-        figure = Figure(figsize=(9.2, 4.0))
+        figure = Figure(figsize=(FULL, 2.9))
         head(figure, "Which word the activity follows", origin)
         panels = figure.subplots(1, len(shares), sharey=True, squeeze=False)[0]
-        figure.subplots_adjust(left=0.085, right=0.985, top=0.755, bottom=0.235, wspace=0.06)
+        figure.subplots_adjust(left=0.075, right=0.985, top=0.785, bottom=0.23, wspace=0.06)
         for axes, (event, own) in zip(panels, shares.items(), strict=True):
             draw_variance(axes, own)
-            axes.set_title(event, loc="left", fontsize=10, fontweight="bold")
+            axes.set_title(event, fontweight="bold")
             axes.set_xlabel("time from it [s]")
         panels[0].set_ylabel("share of variance [%]")
         handles = [
-            Line2D([], [], color=SHARE_COLOURS[name], lw=7, label=text) for name, text in SHARE_LABELS.items()
+            Line2D([], [], color=SHARE_COLOURS[name], lw=5, label=text) for name, text in SHARE_LABELS.items()
         ]
-        figure.legend(handles=handles, loc="lower center", frameon=False, ncols=4, fontsize=9)
+        figure.legend(handles=handles, loc="lower center", ncols=4)
     return figure
 
 
@@ -85,21 +81,19 @@ def draw_variance(axes: Axes, shares: VarianceShares) -> None:
     if known.any():
         stack = [100 * getattr(shares, name)[known] for name in SHARE_LABELS]
         axes.stackplot(shares.time[known], *stack, colors=list(SHARE_COLOURS.values()), lw=0)
-        axes.axvline(0, color=INK, lw=1.0)
+        axes.axvline(0, color=INK, lw=0.8)
         axes.set_xlim(shares.time[known].min(), shares.time[known].max())
     else:
         text = "too few instructions\ncome to it"
         axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=FAINT)
         axes.set_xticks([])
     axes.set_ylim(0, 100)
-    axes.tick_params(labelsize=8, color=FAINT, length=2.5)
-    axes.spines[["top", "right"]].set_visible(False)
 
 
 def object_handles() -> list[Line2D]:
     """Colours of the object words."""
     return [
-        Line2D([], [], color=OBJECT_COLOURS[word], lw=2.5, label=word.name.capitalize())
+        Line2D([], [], color=OBJECT_COLOURS[word], lw=2.0, label=word.name.capitalize())
         for word in ObjectWord
     ]
 
@@ -108,6 +102,6 @@ def _action_handles(behaviour: Behaviour) -> list[Line2D]:
     """Line styles of the action words."""
     actions = [word.action.name for word in behaviour.condition.instructions[::3]]
     return [
-        Line2D([], [], color=INK, lw=1.6, ls=style, label=name)
+        Line2D([], [], color=INK, lw=1.1, ls=style, label=name)
         for name, style in zip(actions, ACTION_STYLES, strict=True)
     ]

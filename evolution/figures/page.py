@@ -1,4 +1,6 @@
-"""What all figures share: fonts, colours that are no data, a head; and how a figure becomes a file.
+"""What all figures share: colours, a head; and how a figure becomes a file.
+
+Widths, letters and lines stand in `arm2d.drawing`, where the robot's figures find them too.
 
 A figure is written as PNG and as an SVG that stays small whatever is drawn. An SVG that would be too large
 keeps its words, axes and marks as a drawing; its dense layers (lines, filled areas and collections, such as
@@ -12,28 +14,37 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from textwrap import wrap
 from typing import Any, Final
 
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-from arm2d.drawing import INK, look
+from arm2d import Condition
+from arm2d.drawing import INK, QUIET, SMALL, STYLE, TITLE, look
+from evolution.agents.subtasks import AgentClass
 from evolution.runs.storage import write_atomically
 
-FAINT: Final = "#767676"
-STYLE: Final[dict[Any, Any]] = {
-    "font.family": "DejaVu Sans",
-    "font.size": 10.0,
-    "axes.edgecolor": FAINT,
-    "axes.labelcolor": INK,
-    "text.color": INK,
-    "xtick.color": INK,
-    "ytick.color": INK,
-    "svg.fonttype": "path",
-    "svg.hashsalt": "wordarm",
+FAINT: Final = QUIET
+# What is ours, and what stands in the paper, wherever the two are set side by side.
+OURS: Final = "#12545F"
+PAPER: Final = INK
+PAPER_DASHES: Final = (0, (4, 3))
+# Things without an order, such as seeds and experiments; clear of the objects' blue, green and red.
+SERIES: Final = (
+    OURS, "#C2782B", "#7B5EA7", "#8FB3CC", "#B0296F", "#E3B23C", "#444444", "#5A9FA0", "#A08060", "#C9A5CE",
+)  # fmt: skip
+CLASS_COLOURS: Final = {
+    AgentClass.FULL: "#B0296F",
+    AgentClass.PARTIAL: "#E69F00",
+    AgentClass.NONE: "#7A7A7A",
 }
+# What neurons follow. Words are no objects either.
+SHARE_COLOURS: Final = {"object": "#A08060", "action": "#5B4B8A", "crossed": "#B58BB8", "rest": "#E6E3DC"}
+CONDITION_COLOURS: Final = {Condition.WITH_INDICATE: OURS, Condition.WITH_IGNORE: "#C2782B"}
 # Coordinates of a place at the right end of a panel, at a height of the data.
 RIGHT_END: Final = ("axes fraction", "data")
 # Paper white at 0 % to deep teal at 100 %, lightness falling evenly.
@@ -45,17 +56,38 @@ SUCCESS_MAP: Final = LinearSegmentedColormap.from_list(
 LARGEST_DRAWING: Final = 400_000
 # Resolutions of dense layers, tried in turn until the drawing is small enough [dots per inch].
 LAYER_RESOLUTIONS: Final = (220, 160, 110, 80)
-RESOLUTION: Final = 200  # of a PNG, likewise
+RESOLUTION: Final = 300  # of a PNG, likewise: what printers ask for
+POINTS_PER_INCH: Final = 72
 PATH: Final = re.compile(rb' (?:d|x|y)="[^"]*"')
 INDENT: Final = re.compile(rb"\n +")
 DIGITS: Final = re.compile(rb"(\.\d{2})\d+")
 
 
 def head(figure: Figure, title: str, origin: str, left: float = 0.015) -> None:
-    """Title and provenance at the top of a page, at the same distance from its edge on every page."""
-    height = figure.get_size_inches()[1]
-    figure.text(left, 1 - 0.32 / height, title, fontsize=15, fontweight="bold")
-    figure.text(left, 1 - 0.54 / height, origin, fontsize=9, color=FAINT)
+    """Title and provenance at the top of a page, at the same distance from its edge on every page.
+
+    Provenance that is too long for a line has a second one, for which every page leaves room.
+    """
+    width, height = figure.get_size_inches()
+    letters = int((1 - left) * width * POINTS_PER_INCH / (0.56 * SMALL))
+    figure.text(left, 1 - 0.2 / height, title, fontsize=TITLE, fontweight="bold")
+    origin = "\n".join(wrap(origin, letters, max_lines=2, placeholder=" …"))
+    figure.text(left, 1 - 0.26 / height, origin, fontsize=SMALL, color=FAINT, va="top", linespacing=1.15)
+
+
+def headed(figure: Figure, title: str, origin: str) -> None:
+    """The same for a page whose layout is found by Matplotlib: it keeps clear of the head."""
+    head(figure, title, origin)
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        lines = len(figure.texts[-1].get_text().splitlines())
+        taken = (0.3 + 0.11 * lines) / figure.get_size_inches()[1]
+        engine.set(rect=(0, 0, 1, 1 - taken))  # pyright: ignore[reportCallIssue] - of a constrained one
+
+
+def paper_handle(name: str = "the paper") -> Line2D:
+    """The legend's entry for the dashed line of a published number."""
+    return Line2D([], [], color=PAPER, lw=1.0, ls=PAPER_DASHES, label=name)
 
 
 def beside(

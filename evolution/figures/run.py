@@ -7,29 +7,38 @@ from typing import Final
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from arm2d import ActionWord, ObjectWord
-from arm2d.drawing import OBJECT_COLOURS, look
-from evolution.figures.page import FAINT, RIGHT_END, STYLE, SUCCESS_MAP, beside, head, ink_on
+from arm2d.drawing import COLUMN, HEADING, OBJECT_COLOURS, SMALL, STYLE, look
+from evolution.figures.page import (
+    FAINT,
+    OURS,
+    PAPER_DASHES,
+    SERIES,
+    SUCCESS_MAP,
+    head,
+    ink_on,
+)
 from evolution.runs.history import History
 from evolution.search.evaluation import Evaluation
 from evolution.search.settings import LARGEST_FITNESS
 
-BEST_COLOUR: Final = "#1B4F72"
-MEAN_COLOUR: Final = "#8FB3CC"
+BEST_COLOUR: Final = OURS
+MEAN_COLOUR: Final = SERIES[3]
 
 
 def heat_map(evaluation: Evaluation, origin: str = "") -> Figure:
     """A page with the successes of one agent on all nine instructions."""
     with look(STYLE):
-        figure = Figure(figsize=(6.0, 5.7))
-        axes = figure.add_axes((0.175, 0.075, 0.8, 0.74))
+        figure = Figure(figsize=(COLUMN, 3.35))
+        axes = figure.add_axes((0.2, 0.075, 0.785, 0.68))
         draw_heat_map(axes, evaluation)
-        head(figure, "Instructions carried out", origin, left=0.175)
+        head(figure, "Instructions carried out", origin)
         note = f"{evaluation.trials} trials each, half of them from either start area"
-        figure.text(0.175, 0.025, note, fontsize=8.5, color=FAINT)
+        figure.text(0.2, 0.025, note, fontsize=SMALL, color=FAINT)
     return figure
 
 
@@ -38,10 +47,12 @@ def draw_heat_map(axes: Axes, evaluation: Evaluation) -> None:
     counts = evaluation.successes[0].sum(axis=-1).reshape(3, 3)
     shares = counts / evaluation.trials
     axes.imshow(shares, cmap=SUCCESS_MAP, vmin=0.0, vmax=1.0, aspect="auto")
-    axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False, pad=6)
+    axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False, pad=4)
     actions = (ActionWord.MOVE, ActionWord.TOUCH, evaluation.condition.third_action)
-    axes.set_yticks(range(3), [word.name for word in actions], fontsize=12)
-    axes.set_xticks(range(3), [word.name.capitalize() for word in ObjectWord], fontsize=13, fontweight="bold")
+    axes.set_yticks(range(3), [word.name for word in actions], fontsize=HEADING)
+    axes.set_xticks(
+        range(3), [word.name.capitalize() for word in ObjectWord], fontsize=HEADING, fontweight="bold"
+    )
     for label, colour in zip(axes.get_xticklabels(), OBJECT_COLOURS.values(), strict=True):
         label.set_color(colour)
     for edge in axes.spines.values():
@@ -55,39 +66,43 @@ def _draw_cell(axes: Axes, row: int, column: int, count: int, trials: int, never
     """Numbers and frame of one instruction."""
     share = count / trials
     colour = ink_on(share)
-    axes.text(column, row - 0.06, f"{100 * share:.0f} %", ha="center", va="center", fontsize=20, color=colour)
-    axes.text(column, row + 0.2, f"{count} of {trials}", ha="center", va="center", fontsize=9, color=colour)
-    axes.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, fill=False, edgecolor="white", linewidth=5))
+    axes.text(column, row - 0.06, f"{100 * share:.0f} %", ha="center", va="center", fontsize=13, color=colour)
+    axes.text(
+        column, row + 0.24, f"{count} of {trials}", ha="center", va="center", fontsize=SMALL, color=colour
+    )
+    axes.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, fill=False, edgecolor="white", linewidth=3))
     if never_met:
-        axes.text(column, row - 0.34, "never met", ha="center", va="center", fontsize=9, color=colour)
+        axes.text(column, row - 0.34, "never met", ha="center", va="center", fontsize=SMALL, color=colour)
         frame = Rectangle((column - 0.445, row - 0.445), 0.89, 0.89, fill=False, edgecolor=colour)
-        frame.set(linewidth=1.5, linestyle=(0, (4, 2.5)))
+        frame.set(linewidth=0.9, linestyle=(0, (4, 2.5)))
         axes.add_patch(frame)
 
 
 def fitness_curve(history: History, origin: str = "") -> Figure:
     """A page with the fitness of a run over its generations."""
     with look(STYLE):
-        figure = Figure(figsize=(7.6, 4.6))
-        axes = figure.add_axes((0.085, 0.125, 0.89, 0.735))
+        figure = Figure(figsize=(COLUMN, 2.45))
+        axes = figure.add_axes((0.115, 0.145, 0.865, 0.635))
         draw_fitness_curve(axes, history)
-        head(figure, "Fitness over the generations", origin, left=0.085)
+        head(figure, "Fitness over the generations", origin)
     return figure
 
 
 def draw_fitness_curve(axes: Axes, history: History) -> None:
     """Best and mean fitness per generation, their running median, and the largest fitness possible."""
     generations = history.generations
-    axes.axhline(LARGEST_FITNESS, color=FAINT, linewidth=1.0, linestyle=(0, (4, 3)))
-    look = {"xycoords": RIGHT_END, "ha": "right", "fontsize": 8.5, "color": FAINT}
-    beside(axes, f"largest possible, {LARGEST_FITNESS:.3f}", (1.0, LARGEST_FITNESS), (-4, 4), **look)
+    axes.axhline(LARGEST_FITNESS, color=FAINT, linewidth=0.8, linestyle=PAPER_DASHES)
     for name, values, colour in (("best", history.best, BEST_COLOUR), ("mean", history.mean, MEAN_COLOUR)):
-        axes.plot(generations, values, color=colour, linewidth=0.5, alpha=0.35)
-        axes.plot(generations, running_median(values), color=colour, linewidth=1.8, label=name)
+        axes.plot(generations, values, color=colour, linewidth=0.4, alpha=0.35)
+        axes.plot(generations, running_median(values), color=colour, linewidth=1.3, label=name)
     axes.set(xlabel="generation", ylabel="fitness, mean of 28 trials", ylim=(0.0, 1.1 * LARGEST_FITNESS))
     axes.set_xlim(generations[0], max(generations[-1], generations[0] + 1))
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(frameon=False, loc="lower right", ncols=2)
+    handles = [
+        *axes.get_legend_handles_labels()[0],
+        Line2D([], [], color=FAINT, lw=0.4, label="thin: every generation"),
+        Line2D([], [], color=FAINT, lw=0.8, ls=PAPER_DASHES, label=f"the largest, {LARGEST_FITNESS:.3f}"),
+    ]
+    axes.legend(handles=handles, loc="lower right")
 
 
 def running_median(values: NDArray[np.float64], width: int = 51) -> NDArray[np.float64]:

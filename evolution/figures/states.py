@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 
 from arm2d import ObjectWord
 from arm2d.constants import N_INTER
-from arm2d.drawing import INK, OBJECT_COLOURS, look
+from arm2d.drawing import FULL, INK, OBJECT_COLOURS, SMALL, STYLE, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
 from evolution.figures.neurons import object_handles
-from evolution.figures.page import FAINT, STYLE, beside, head
+from evolution.figures.page import FAINT, beside, head
 
 SHOWN_PER_AREA: Final = 3
+CUBE_COLOUR: Final = "#C9C6BE"
 
 
 def state_space_figure(behaviour: Behaviour, origin: str = "") -> Figure:
@@ -26,18 +27,18 @@ def state_space_figure(behaviour: Behaviour, origin: str = "") -> Figure:
     mean, plane, shares = principal_plane(behaviour.activity)
     actions = [word.action.name for word in behaviour.condition.instructions[::3]]
     with look(STYLE):
-        figure = Figure(figsize=(9.2, 4.3))
+        figure = Figure(figsize=(FULL, 3.3))
         head(figure, "The paths through the network's states", origin)
         panels = figure.subplots(1, 3, sharex=True, sharey=True)
-        figure.subplots_adjust(left=0.075, right=0.985, top=0.785, bottom=0.235, wspace=0.05)
+        figure.subplots_adjust(left=0.075, right=0.985, top=0.81, bottom=0.21, wspace=0.05)
         for action, axes in enumerate(panels):
             draw_paths(axes, behaviour, (behaviour.activity - mean) @ plane, action)
             draw_cube(axes, mean, plane)
-            axes.set_title(actions[action], loc="left", fontsize=10, fontweight="bold")
+            axes.set_title(actions[action], fontweight="bold")
             axes.set_xlabel(f"first component, {100 * shares[0]:.0f} % of variance")
         panels[0].set_ylabel(f"second component, {100 * shares[1]:.0f} %")
         handles = object_handles() + _path_handles()
-        figure.legend(handles=handles, loc="lower center", frameon=False, ncols=7, fontsize=9)
+        figure.legend(handles=handles, loc="lower center", ncols=8)
     return figure
 
 
@@ -64,7 +65,7 @@ def draw_paths(axes: Axes, behaviour: Behaviour, points: NDArray[np.float64], ac
         if trial not in own[:SHOWN_PER_AREA]:
             continue
         colour, path = OBJECT_COLOURS[ObjectWord(behaviour.objects[trial])], points[trial]
-        axes.plot(*path.T, color=colour, lw=0.9, alpha=0.8)
+        axes.plot(*path.T, color=colour, lw=0.7, alpha=0.8)
         events = (
             (0, "s", INK),
             (behaviour.first_sight[trial], "o", "white"),
@@ -73,10 +74,8 @@ def draw_paths(axes: Axes, behaviour: Behaviour, points: NDArray[np.float64], ac
         )
         for row, marker, face in events:
             if row != NEVER:
-                axes.plot(*path[row], marker, ms=5, mfc=face, mec=INK, mew=0.6, zorder=4)
+                axes.plot(*path[row], marker, ms=3.6, mfc=face, mec=INK, mew=0.5, zorder=4)
     axes.set_aspect("equal", adjustable="box")
-    axes.tick_params(labelsize=8, color=FAINT, length=2.5)
-    axes.spines[["top", "right"]].set_visible(False)
 
 
 def draw_cube(axes: Axes, mean: NDArray[np.float64], plane: NDArray[np.float64]) -> None:
@@ -85,14 +84,14 @@ def draw_cube(axes: Axes, mean: NDArray[np.float64], plane: NDArray[np.float64])
     for a in corners:
         for b in corners:
             if (b - a).sum() == 1 and np.abs(b - a).sum() == 1:
-                axes.plot(*((np.array([a, b]) - mean) @ plane).T, color="#DAD7CF", lw=0.7, zorder=0)
+                axes.plot(*((np.array([a, b]) - mean) @ plane).T, color=CUBE_COLOUR, lw=0.6, zorder=0)
     axes.margins(0.14)  # room for the neurons' names
     origin = -mean @ plane
     for neuron in range(N_INTER):
         tip = (np.eye(N_INTER)[neuron] - mean) @ plane
         way = (tip - origin) / max(float(np.linalg.norm(tip - origin)), 1e-9)
-        look = {"fontsize": 7.5, "color": FAINT, "ha": "center", "va": "center", "zorder": 5}
-        beside(axes, f"neuron {neuron + 1}", tip, 9 * way, **look)
+        look = {"fontsize": SMALL, "color": FAINT, "ha": "center", "va": "center", "zorder": 5}
+        beside(axes, f"neuron {neuron + 1}", tip, 7 * way, **look)
 
 
 def _path_handles() -> list[Line2D]:
@@ -103,7 +102,11 @@ def _path_handles() -> list[Line2D]:
         ("D", FAINT, "first touch"),
         ("X", FAINT, "end"),
     )
+    cube = Line2D([], [], color=CUBE_COLOUR, lw=0.6, label="where outputs can be")
     return [
-        Line2D([], [], ls="", marker=marker, ms=5, mfc=face, mec=INK, label=label)
-        for marker, face, label in marks
+        *(
+            Line2D([], [], ls="", marker=marker, ms=3.6, mfc=face, mec=INK, mew=0.5, label=label)
+            for marker, face, label in marks
+        ),
+        cube,
     ]

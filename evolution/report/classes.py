@@ -14,7 +14,7 @@ from arm2d import Condition
 from evolution.agents.classes import Observation, Sampling, read_observation
 from evolution.agents.subtasks import AgentClass
 from evolution.figures.classes import Behaviours, classes_figure
-from evolution.figures.fans import fans_figure
+from evolution.figures.fans import fans_figure, representatives
 from evolution.figures.page import save_figure
 from evolution.report.columns import PlainTable
 from evolution.results.classes import ClassBehaviour, class_behaviours, measures
@@ -50,8 +50,8 @@ def class_figures(behaviours: Behaviours, sampling: Sampling) -> dict[str, Figur
         return {}
     figures = {"classes": classes_figure(behaviours)}
     for condition, classes in behaviours.items():
-        if figure := fans_figure(condition, classes, sampling):
-            figures[f"classes-trajectories-{condition}"] = figure
+        if fans := representatives(condition, classes, sampling):
+            figures[f"classes-trajectories-{condition}"] = fans_figure(condition, fans)
     return figures
 
 

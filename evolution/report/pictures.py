@@ -17,7 +17,7 @@ from evolution.report.safety import check_drawing
 # Drawings up to this size stay drawings [bytes]; of larger ones the page shows whichever is smaller,
 # drawing or pixels, so that it stays a few megabytes with a dozen dense figures in it.
 SMALL_DRAWING: Final = 120_000
-RESOLUTION: Final = 150  # of pixels [dots per inch]
+RESOLUTION: Final = 200  # of pixels [dots per inch]
 LARGEST_FILE: Final = 32 * 2**20  # [bytes]
 MOST_PIXELS: Final = 30_000_000
 COLOURS: Final = 128  # in a page's pixels; figures are flat

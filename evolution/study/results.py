@@ -16,11 +16,11 @@ from evolution.experiments.variants import Variant
 from evolution.experiments.warm_workers import WarmStart
 from evolution.experiments.workers import Ended, Job
 from evolution.figures.page import save_figure
-from evolution.figures.paper import TITLES
 from evolution.runs.folder import RunFolder
 from evolution.runs.interrupt import StopRequest
 from evolution.runs.lock import locked
 from evolution.runs.storage import make_folder, write_atomically
+from evolution.study.drawn import Drawn, base_among, drawn
 from evolution.study.effects import effect_table
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import is_measured, measure
@@ -90,8 +90,17 @@ def measured_variants(plan: Plan) -> list[VariantMeasures]:
     )
 
 
-def write_study(variants: Sequence[VariantMeasures], part: Part, folder: Path) -> Iterable[Path]:
-    """Write tables, and both pictures for each condition; their paths."""
+def write_study(
+    variants: Sequence[VariantMeasures], part: Part, folder: Path, others: Sequence[VariantMeasures] = ()
+) -> Iterable[Path]:
+    """Write tables, and both pictures for each condition; their paths.
+
+    Args:
+        variants: Of the part.
+        part: Names the files.
+        folder: For them; made if need be.
+        others: Of an earlier part: among them is what variants stand on that is not one of them.
+    """
     make_folder(folder)
     tables = {
         "variants": variant_table(variants),
@@ -102,17 +111,19 @@ def write_study(variants: Sequence[VariantMeasures], part: Part, folder: Path) -
         path = folder / f"{part.name}-{name}.csv"
         write_atomically(path, table.to_csv().encode())
         yield path
+    yield from write_pictures([drawn(each) for each in variants], part.name, folder, map(drawn, others))
+
+
+def write_pictures(
+    variants: Sequence[Drawn], part: str, folder: Path, others: Iterable[Drawn] = ()
+) -> Iterable[Path]:
+    """Both pictures for each condition; their paths. Arguments as those of `write_study`."""
+    others = list(others)
     for condition in Condition:
         own = [each for each in variants if each.condition is condition]
-        if own:
-            yield from _write_figures(own, part, condition, folder)
-
-
-def _write_figures(
-    variants: Sequence[VariantMeasures], part: Part, condition: Condition, folder: Path
-) -> Iterable[Path]:
-    about = f"{TITLES[condition]}, {variants[0].generations} generations"
-    effects = effects_figure(variants, f"What each reading changes ({about}; runs in brackets)")
-    yield from save_figure(effects, folder / f"{part.name}-{condition}-effects")
-    failures = failures_figure(variants, f"What late agents carry out ({about}; * never met)")
-    yield from save_figure(failures, folder / f"{part.name}-{condition}-failures")
+        if not own:
+            continue
+        known = {each.name for each in own}
+        base = base_among([each for each in others if each.name not in known], own)
+        yield from save_figure(effects_figure(own, base), folder / f"{part}-{condition}-effects")
+        yield from save_figure(failures_figure(own, base), folder / f"{part}-{condition}-failures")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -125,3 +126,17 @@ def driver_of_egl() -> str:
     if not any(each for folder in VENDOR_FOLDERS for each in Path(folder).glob("*.json")):
         return f"EGL has no driver: apt-get install {PACKAGES}"
     return f"EGL's driver does not draw: apt-get install --reinstall {PACKAGES}"
+
+
+def main() -> int:
+    """Say in one sentence why nothing can be drawn, and what to do; 0 and no word if something can."""
+    if any(works(name) for name in BACK_ENDS):
+        return 0
+    first = BACK_ENDS[0]
+    found = describe(first, try_back_end(first, mujoco_works=True), enough=False)
+    print(f"wordarm: the robot cannot be drawn here: {found.text}; {found.next_move}", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -8,22 +8,18 @@ from typing import Any, Final
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from arm2d.drawing import INK, look
+from arm2d.drawing import FULL, QUIET, SMALL, STYLE, TITLE, look
 from arm2d.records import brief
 from models.robots import Robot
 from mujoco_port.reach.certificate import Certificate
 
-FAINT: Final = "#767676"
-WORST: Final = "#D55E00"
+WORST: Final = "#B0296F"
+RING: Final[dict[str, Any]] = {"marker": "o", "ms": 6, "mfc": "none", "mec": WORST}
+BOUNDS: Final = "alpha: S1, from the right bound to the left; beta: S2, from straight to bent"
 COLOURS: Final = "cividis"  # even in lightness, and the same to all eyes
-STYLE: Final[dict[Any, Any]] = {
-    "font.family": "DejaVu Sans",
-    "font.size": 9.0,
-    "text.color": INK,
-    "axes.labelcolor": INK,
-}
 
 
 @dataclass(frozen=True)
@@ -41,17 +37,20 @@ class Layer:
 def draw_certificate(certificate: Certificate, robot: Robot) -> Figure:
     """Draw what was measured, the worse of both walks everywhere, the worst place of each map marked."""
     with look(STYLE):
-        figure = Figure(figsize=(11.0, 6.6))
+        figure = Figure(figsize=(FULL, 4.4))
         axes = figure.subplots(2, 3, sharex=True, sharey=True).ravel()
         for panel, layer in zip(axes, _layers(certificate), strict=True):
             _draw_layer(panel, certificate, layer)
         for panel in axes[3:]:
-            panel.set_xlabel("alpha [deg], S1 from the right bound to the left")
+            panel.set_xlabel("alpha [deg]")
         for panel in axes[::3]:
-            panel.set_ylabel("beta [deg], S2 straight to bent")
-        figure.subplots_adjust(left=0.065, right=0.975, bottom=0.085, top=0.845, wspace=0.16, hspace=0.32)
-        figure.text(0.065, 0.945, f"The workspace on {robot.title}", fontsize=14, fontweight="bold")
-        figure.text(0.065, 0.908, _subtitle(certificate), fontsize=9, color=FAINT)
+            panel.set_ylabel("beta [deg]")
+        worst = Line2D([], [], ls="", **RING, label="the worst place")
+        figure.legend(handles=[worst], loc="lower right")
+        figure.text(0.015, 0.025, BOUNDS, fontsize=SMALL, color=QUIET)
+        figure.subplots_adjust(left=0.06, right=0.96, bottom=0.14, top=0.8, wspace=0.2, hspace=0.42)
+        figure.text(0.015, 0.945, f"The workspace on {robot.title}", fontsize=TITLE, fontweight="bold")
+        figure.text(0.015, 0.908, _subtitle(certificate), fontsize=SMALL, color=QUIET)
     return figure
 
 
@@ -91,9 +90,9 @@ def _draw_layer(axes: Axes, certificate: Certificate, layer: Layer) -> None:
     worst = np.nanargmin(layer.values) if layer.least_is_worst else np.nanargmax(layer.values)
     i, j = np.unravel_index(worst, layer.values.shape)
     place = certificate.alpha[i], certificate.beta[j]
-    axes.plot(*place, "o", markersize=9, markerfacecolor="none", markeredgecolor=WORST, clip_on=False)
+    axes.plot(*place, ls="", clip_on=False, **RING)
     word = "least" if layer.least_is_worst else "most"
-    axes.set_title(f"{layer.title}: {word} {layer.values[i, j]:.3g} {layer.unit}", fontsize=10, loc="left")
+    axes.set_title(f"{layer.title}\n{word} {layer.values[i, j]:.3g} {layer.unit}", fontsize="medium")
     axes.set_xticks(np.arange(-30, 211, 60))
     axes.set_yticks(np.arange(0, 91, 30))
-    axes.figure.colorbar(image, ax=axes, pad=0.02, aspect=18).set_label(f"[{layer.unit}]", color=FAINT)
+    axes.figure.colorbar(image, ax=axes, pad=0.02, aspect=18).set_label(f"[{layer.unit}]", color=QUIET)

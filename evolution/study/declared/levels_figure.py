@@ -8,21 +8,21 @@ from typing import Final
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 
 from arm2d import Condition
-from arm2d.drawing import INK, look
-from evolution.figures.page import FAINT, STYLE
-from evolution.figures.paper import TITLES
+from arm2d.drawing import FULL, INK, SMALL, STYLE, look
+from evolution.figures.page import CONDITION_COLOURS, FAINT, PAPER_DASHES, headed
+from evolution.results.wording import TITLES
 from evolution.study.declared.factors import FACTORS
 from evolution.study.declared.regression import SIGNIFICANT, Model
 
-COLOURS: Final = {Condition.WITH_INDICATE: "#0072B2", Condition.WITH_IGNORE: "#D55E00"}
 OFFSETS: Final = {Condition.WITH_INDICATE: -0.16, Condition.WITH_IGNORE: 0.16}
-ROW_HEIGHT: Final = 0.2  # [inch]
+ROW_HEIGHT: Final = 0.13  # [inch]
 GAP: Final = 0.6  # between factors [rows]
 
 
-def levels_figure(models: Mapping[Condition, Sequence[Model]], title: str) -> Figure:
+def levels_figure(models: Mapping[Condition, Sequence[Model]], title: str, about: str = "") -> Figure:
     """A row for each level, a column for each outcome: what runs come to on average with that level.
 
     Dots with 95 % intervals, filled where the factor's corrected p is below 0.05; the thin line is the mean
@@ -30,31 +30,32 @@ def levels_figure(models: Mapping[Condition, Sequence[Model]], title: str) -> Fi
     """
     rows = _rows()
     outcomes = [model.outcome for model in next(iter(models.values()))]
-    height = 1.6 + ROW_HEIGHT * (rows[-1][2] + 1)
+    height = 1.2 + ROW_HEIGHT * (rows[-1][2] + 1)
     with look(STYLE):
-        figure = Figure(figsize=(2.6 + 1.75 * len(outcomes), height), layout="constrained")
+        figure = Figure(figsize=(FULL, height), layout="constrained")
         panels = figure.subplots(1, len(outcomes), sharey=True, squeeze=False)[0]
         for column, axes in enumerate(panels):
             for condition, own in models.items():
                 _draw(axes, own[column], condition, rows)
             _finish(axes, outcomes[column].name, is_share=outcomes[column].is_share)
-        panels[0].set_yticks([y for *_, y in rows], [_label(f, level) for f, level, _ in rows], fontsize=7.5)
+        panels[0].set_yticks([y for *_, y in rows], [_label(f, level) for f, level, _ in rows])
         for label, (_, level, _) in zip(panels[0].get_yticklabels(), rows, strict=True):
             label.set_fontweight("bold" if level == 0 else "normal")
         panels[0].set_ylim(rows[-1][2] + 0.7, -0.7)
-        figure.legend(handles=_legend(models), loc="outside lower center", ncols=5, frameon=False, fontsize=8)
-        figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+        figure.legend(handles=_legend(models), loc="outside lower center", ncols=3)
+        headed(figure, title, about)
     return figure
 
 
 def _legend(conditions: Iterable[Condition]) -> list[Line2D]:
     """What colours and marks mean."""
-    dot = {"marker": "o", "ms": 4}
+    dot = {"marker": "o", "ms": 3.2}
     return [
-        *(Line2D([], [], color=COLOURS[c], **dot, label=TITLES[c]) for c in conditions),
+        *(Line2D([], [], color=CONDITION_COLOURS[c], **dot, label=TITLES[c]) for c in conditions),
         Line2D([], [], color=INK, ls="", **dot, label="the factor matters: p < 0.05 after Holm"),
         Line2D([], [], color=INK, ls="", **dot, mfc="white", label="not shown to matter"),
-        Line2D([], [], color=INK, lw=1.1, ls=(0, (4, 3)), label="the paper"),
+        Line2D([], [], color=INK, lw=0.9, ls=PAPER_DASHES, label="the paper"),
+        Line2D([], [], color=INK, lw=0.5, label="mean over all levels"),
     ]
 
 
@@ -77,20 +78,21 @@ def _label(factor: int, level: int) -> str:
 
 def _draw(axes: Axes, model: Model, condition: Condition, rows: Sequence[tuple[int, int, float]]) -> None:
     """One outcome of one condition."""
-    scale, colour = 100 if model.outcome.is_share else 1, COLOURS[condition]
+    scale, colour = 100 if model.outcome.is_share else 1, CONDITION_COLOURS[condition]
     for factor, level, row in rows:
         mean, y = model.level_mean(factor, level), row + OFFSETS[condition]
         face = colour if model.corrected[factor] < SIGNIFICANT else "white"
-        axes.plot([scale * mean.low, scale * mean.high], [y, y], color=colour, lw=1.2, zorder=3)
-        axes.plot(scale * mean.value, y, "o", ms=3.6, mfc=face, mec=colour, mew=0.9, zorder=4)
-    axes.axvline(scale * float(model.predict(model.levels).mean()), color=colour, lw=0.6, zorder=1)
+        axes.plot([scale * mean.low, scale * mean.high], [y, y], color=colour, lw=0.9, zorder=3)
+        axes.plot(scale * mean.value, y, "o", ms=2.8, mfc=face, mec=colour, mew=0.7, zorder=4)
+    axes.axvline(scale * float(model.predict(model.levels).mean()), color=colour, lw=0.5, zorder=1)
     published = scale * model.outcome.published(condition)
-    axes.axvline(published, color=colour, lw=1.1, ls=(0, (4, 3)), zorder=2)
+    axes.axvline(published, color=colour, lw=0.9, ls=PAPER_DASHES, zorder=2)
 
 
 def _finish(axes: Axes, name: str, *, is_share: bool) -> None:
-    axes.set_title(f"{name} [%]" if is_share else name, fontsize=8.5, loc="left", color=INK)
+    name = name.replace(" of ", "\nof ")
+    axes.set_title(f"{name} [%]" if is_share else name, fontsize=SMALL, color=INK)
     axes.tick_params(axis="y", length=0)
-    axes.tick_params(axis="x", labelsize=7.5)
+    axes.xaxis.set_major_locator(MaxNLocator(3))
     axes.grid(axis="y", color=FAINT, alpha=0.15, lw=0.5)
-    axes.spines[["top", "right", "left"]].set_visible(False)
+    axes.spines["left"].set_visible(False)

@@ -45,8 +45,8 @@ def write_factorial(runs: Sequence[MeasuredRun], folder: Path) -> tuple[list[Pat
         paths.append(folder / f"factorial-{name}.csv")
         write_atomically(paths[-1], table.to_csv().encode())
     if models:
-        title = f"What each reading does when all are mixed ({_counted(models)})"
-        paths += save_figure(levels_figure(models, title), folder / "factorial-levels")
+        title = "What each reading does when all are mixed"
+        paths += save_figure(levels_figure(models, title, _counted(models)), folder / "factorial-levels")
     return paths, notes
 
 

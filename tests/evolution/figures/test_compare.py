@@ -5,7 +5,8 @@ import pytest
 from matplotlib.colors import to_hex
 
 from arm2d import Condition
-from evolution.figures.compare import PAPER, compare_figure
+from evolution.figures.compare import compare_figure
+from evolution.figures.page import PAPER
 from evolution.results import published
 from evolution.results.wording import TITLES
 from tests.evolution.made_up import both_conditions, condition_results, random_successes, results
@@ -55,7 +56,7 @@ def strokes(axes):
 def large_dots(axes, colour):
     """Where the large dots of one colour stand, by the name of the nearest row."""
     names = [label.get_text() for label in axes.get_yticklabels()]
-    drawn = [line for line in axes.lines if line.get_markersize() > 6 and to_hex(line.get_color()) == colour]
+    drawn = [line for line in axes.lines if line.get_markersize() > 4 and to_hex(line.get_color()) == colour]
     return {names[round(line.get_ydata()[0])]: line.get_xdata()[0] for line in drawn}
 
 
@@ -119,7 +120,7 @@ def test_every_run_stands_in_the_row_of_its_experiment(figure, colours, experime
 def test_single_runs_are_the_small_dots(figure, colours, experiments):
     axes = row_of(figure, Condition.WITH_INDICATE)[TOPS]
     own = [line for line in axes.lines if to_hex(line.get_color()) == colours["second"]]
-    small = [line for line in own if line.get_markersize() == 3]
+    small = [line for line in own if line.get_markersize() == 2.4]
     shown = {round(line.get_ydata()[0]): np.asarray(line.get_xdata()) for line in small}
     found = experiments["second"].conditions[Condition.WITH_INDICATE]
     for row, subtask in enumerate(("I", "II", "III", "IV")):

@@ -6,8 +6,8 @@ from matplotlib.colors import to_hex
 
 from arm2d import Condition
 from evolution.agents.transitions import action_transitions, object_transitions
-from evolution.figures.generalisers import CLASS_COLOURS, generalisers_figure
-from evolution.figures.page import FAINT
+from evolution.figures.generalisers import generalisers_figure
+from evolution.figures.page import CLASS_COLOURS, QUIET
 from evolution.figures.paper import all_figures, fitness_figure, table_figure, transitions_figure
 from evolution.figures.run import running_median
 from evolution.results import published
@@ -33,11 +33,13 @@ def test_bars_of_table_ii_have_the_papers_shares_on_the_left_and_ours_on_the_rig
     figure = table_figure(experiment)
     (legend,) = figure.legends
     handles = zip(legend.legend_handles, legend.get_texts(), strict=True)
-    names = {to_hex(handle.get_facecolor()): text.get_text() for handle, text in handles}
+    names = {to_hex(handle.get_facecolor()): text.get_text() for handle, text in list(handles)[:11]}
+    sides = [text.get_text() for text in legend.get_texts()][11:]
+    assert sides == ["left bar: the paper", "right bar: ours"]
     assert list(names.values()) == [*(f"{8 * k - 7} to {8 * k}" for k in range(10, 0, -1)), "0"]
     for found, (axes,) in panels(figure, experiment):
         labels = [label.get_text() for label in axes.get_xticklabels()]
-        assert labels == [f"paper  ours\n{subtask}" for subtask in ("I", "II", "III", "IV")]
+        assert [label.split("\n")[0] for label in labels] == ["I", "II", "III", "IV"]
         for column, place in enumerate(axes.get_xticks()):
             for whose, sign in ((published.TABLE_II[found.condition], -1), (found.counts, 1)):
                 bars = [
@@ -63,16 +65,20 @@ def test_transitions_stand_above_their_names_in_the_panel_of_their_word(experime
             (object_, "object", object_transitions(found.condition)),
         ):
             assert axes.get_title(loc="left").endswith(f"{word} word changes")
-            labels = [label.get_text() for label in axes.get_xticklabels()]
+            labels = [label.get_text() for label in axes.get_yticklabels()]
             for label, transition in zip(labels, transitions, strict=True):
                 changed = [getattr(heard, word).name for heard in (transition.before, transition.after)]
-                assert label.split(" (")[0].upper() == " → ".join(changed)
+                assert label.upper() == " → ".join(changed)
+            stays = "object" if word == "action" else "action"
+            groups = {getattr(transition.before, stays).name for transition in transitions}
+            assert {text.get_text().upper() for text in axes.texts} == groups
             lines = {to_hex(line.get_color()): line for line in axes.lines if line.get_marker() == "o"}
             texts = [text.get_text() for text in axes.get_legend().get_texts()]
             for kind, outcome in found.transitions.items():
                 line = lines[to_hex(CLASS_COLOURS[kind])]
                 success, passed = getattr(outcome, f"{word}_success"), getattr(outcome, f"{word}_passed")
-                assert np.asarray(line.get_ydata()) == pytest.approx(100 * success)
+                assert np.asarray(line.get_xdata()) == pytest.approx(100 * success)
+                np.testing.assert_array_equal(line.get_ydata(), axes.get_yticks())
                 assert line.get_label() == f"{kind}: {passed} of {outcome.agents} pass"
                 assert line.get_label() in texts
 
@@ -85,9 +91,9 @@ def test_fitness_lines_are_the_runs_and_dots_stand_where_they_solved_all(experim
             own = [mark for mark in axes.lines if to_hex(mark.get_color()) == to_hex(line.get_color())]
             dots = [mark.get_xdata()[0] for mark in own if mark.get_marker() == "o"]
             assert dots == ([first] if first >= 0 else [])
-        (dashed,) = [own for own in axes.lines if to_hex(own.get_color()) == FAINT]
+        (dashed,) = [own for own in axes.lines if to_hex(own.get_color()) == QUIET.lower()]
         assert set(dashed.get_ydata()) == {18 / 7}
-        assert any(text.get_text() == f"{found.at_plateau} of 3 runs end at 18/7" for text in axes.texts)
+        assert axes.get_title(loc="right") == f"{found.at_plateau} of 3 runs end at 18/7"
 
 
 def test_generalisers_stand_at_their_generations_in_the_row_of_their_run(experiment):
@@ -102,7 +108,7 @@ def test_generalisers_stand_at_their_generations_in_the_row_of_their_run(experim
         for run, seed in enumerate(found.seeds):
             full, partial, _ = (found.members[kind][run] for kind in found.members)
             expected = f"{full} fully, {partial} partially" if full or partial else "none"
-            assert notes[round(places[f"seed {seed}"], 6)] == expected
+            assert notes[round(places[str(seed)], 6)] == expected
 
 
 def test_all_four_figures_of_the_paper_are_drawn_for_one_condition_too(experiment):

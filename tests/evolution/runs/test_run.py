@@ -131,6 +131,7 @@ def test_meta_tells_each_start_and_end(tmp_path):
     assert {"started", "ended", "versions", "revision", "machine"} <= starts[0].keys()
 
 
+@pytest.mark.usefixtures("git")
 def test_asking_for_the_revision_leaves_the_index_alone(tmp_path):
     """A process killed while git has the index locked would leave the lock in the user's checkout."""
     package = tmp_path / "evolution"

@@ -147,6 +147,7 @@ def planted(tmp_path):
     return script
 
 
+@pytest.mark.usefixtures("git")
 def test_asking_git_for_the_revision_runs_nothing_of_the_repository(tmp_path, planted, monkeypatch):
     revision = repository(tmp_path / "theirs", planted)
     monkeypatch.setattr(meta, "__file__", str(tmp_path / "theirs" / "runs" / "meta.py"))
@@ -157,6 +158,7 @@ def test_asking_git_for_the_revision_runs_nothing_of_the_repository(tmp_path, pl
     assert not (tmp_path / "executed").exists()
 
 
+@pytest.mark.usefixtures("git")
 def test_no_variable_leads_git_to_another_repository(tmp_path, planted, monkeypatch):
     here = meta.revision()
     repository(tmp_path / "theirs", planted)

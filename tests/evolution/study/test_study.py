@@ -18,6 +18,7 @@ from evolution.runs.run import evolve
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
+from evolution.study.drawn import base_among, drawn, read_drawn
 from evolution.study.effects import effect_table, effects, holm
 from evolution.study.figure import effects_figure, failures_figure
 from evolution.study.measures import FILE, RunMeasures, measure
@@ -273,15 +274,45 @@ def test_holm_multiplies_the_smallest_p_by_all_looks_and_keeps_their_order():
 
 
 def test_figures_show_every_variant_and_the_published_values(measured):
-    variants = group(measured[1])
-    effects = effects_figure(variants, "title")
+    variants = [drawn(variant) for variant in group(measured[1])]
+    effects = effects_figure(variants)
     labels = [label.get_text() for label in effects.axes[0].get_yticklabels()]
-    assert labels == ["default  (2)", "object radius 8  (2)"]
+    assert labels == ["default", "object radius 8"]
     dashed = [np.asarray(line.get_xdata()) for line in effects.axes[2].lines if line.get_linestyle() == "--"]
     np.testing.assert_allclose(dashed, [[60.231, 60.231]])
-    failures = failures_figure(variants, "title")
+    failures = failures_figure(variants)
     (image,) = failures.axes[0].images
-    np.testing.assert_allclose(np.asarray(image.get_array())[1], 100 * variants[1].success_by_area.ravel())
+    np.testing.assert_allclose(
+        np.asarray(image.get_array())[1], 100 * group(measured[1])[1].success_by_area.ravel()
+    )
+
+
+def test_what_is_drawn_can_be_read_back_from_the_table_of_runs(measured, tmp_path):
+    path = tmp_path / "part-runs.csv"
+    path.write_text(run_table(group(measured[1])).to_csv())
+    for again, variant in zip(read_drawn(path), group(measured[1]), strict=True):
+        shown = drawn(variant)
+        assert (again.name, again.condition, again.generations) == (shown.name, shown.condition, 40)
+        for name in ("seeds", "plateaus", "solved", "top_shares", "generalists", "success"):
+            np.testing.assert_allclose(getattr(again, name), getattr(shown, name), rtol=0, atol=5e-4)
+
+
+def test_what_is_no_table_of_runs_is_refused(tmp_path):
+    path = tmp_path / "other.csv"
+    path.write_text("variant,condition\ndefault,with-indicate\n")
+    with pytest.raises(ValueError, match=r"is no table of a study's runs .* ends with -runs\.csv"):
+        read_drawn(path)
+
+
+def test_the_confirmation_stands_on_the_finalists_runs_of_the_same_seeds():
+    """What the table of docs/readings.md calls alone."""
+    variants = read_drawn(RESULTS / "confirmation-runs.csv")
+    finalists = read_drawn(RESULTS / "finalists-runs.csv")
+    for condition, plateau in ((Condition.WITH_INDICATE, 2.45), (Condition.WITH_IGNORE, 2.54)):
+        base = base_among(finalists, [each for each in variants if each.condition is condition])
+        assert (base.name, base.seeds.tolist()) == ("mutation-sd-0.03", list(range(11, 21)))
+        assert base.plateaus.mean() == pytest.approx(plateau, abs=0.005)
+    assert base_among(finalists, read_drawn(RESULTS / "screening-runs.csv")) is None
 
 
 def test_study_is_written_as_tables_and_pictures(measured, tmp_path):

@@ -1,0 +1,112 @@
+"""The figures of docs/results once more, from the numbers that lie beside them.
+
+    python -m scripts.docs_figures
+
+draws what tables and results.npz hold: fitness, Table II, generalisers, and all of the study of readings. The
+others need the runs: `wordarm analyse` and `wordarm behaviour` draw them.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d import Condition
+from evolution.agents.subtasks import AgentClass, categories, classify, count_table
+from evolution.experiments.experiment import Experiment
+from evolution.figures.generalisers import generalisers_figure
+from evolution.figures.page import save_figure
+from evolution.figures.paper import fitness_figure, table_figure
+from evolution.results.analysis import PLATEAU_SHARE
+from evolution.results.generalisers import Generalisers, spell_lengths
+from evolution.results.records import ConditionResults, Results
+from evolution.runs.folder import RunFolder
+from evolution.runs.storage import read_arrays
+from evolution.search.config import RunConfig
+from evolution.study.drawn import read_drawn
+from evolution.study.results import write_pictures
+
+RESULTS: Final = Path(__file__).parents[1] / "docs" / "results"
+# The parts of the study, each with the one in which what its variants stand on was evolved.
+PARTS: Final = {"screening": None, "finalists": None, "around": None, "confirmation": "finalists"}
+
+
+def main() -> None:
+    """Draw and write all of them."""
+    results = stored_results(read_arrays(RESULTS / "results.npz"))
+    for name, draw in (
+        ("fitness", fitness_figure),
+        ("table-ii", table_figure),
+        ("generalisers", generalisers_figure),
+    ):
+        print(*save_figure(draw(results), RESULTS / name), sep="\n")
+    for part, before in PARTS.items():
+        others = [] if before is None else read_drawn(RESULTS / "readings" / f"{before}-runs.csv")
+        variants = read_drawn(RESULTS / "readings" / f"{part}-runs.csv")
+        print(*write_pictures(variants, part, RESULTS / "readings", others), sep="\n")
+
+
+def stored_results(arrays: dict[str, NDArray]) -> Results:
+    """The experiment as far as its archive tells it: without transitions, and without stays of genotypes."""
+    found = {
+        condition: _condition(condition, {name: arrays[f"{condition}.{name}"] for name in ARRAYS})
+        for condition in Condition
+    }
+    experiment = Experiment(RESULTS, {condition: own.runs for condition, own in found.items()})
+    return Results(experiment, found, {}, {})
+
+
+ARRAYS: Final = ("seeds", "best", "first_solved", "generations", "successes")
+
+
+def _condition(condition: Condition, arrays: dict[str, NDArray]) -> ConditionResults:
+    best, successes = arrays["best"].astype(float), arrays["successes"].astype(np.int16)
+    generations, n_runs = arrays["generations"], len(arrays["seeds"])
+    tables = np.array([count_table(categories(own.reshape(-1, 9), condition)) for own in successes])
+    classes = [classify(own.reshape(-1, 9), condition) for own in successes]
+    return ConditionResults(
+        condition=condition,
+        runs=tuple(
+            RunFolder(RESULTS / f"seed-{seed:04d}", RunConfig(condition, int(seed)))
+            for seed in arrays["seeds"]
+        ),
+        seeds=arrays["seeds"],
+        best=best,
+        plateau=np.median(best[:, -round(best.shape[1] * PLATEAU_SHARE) :], axis=1),
+        first_solved=arrays["first_solved"],
+        genotypes=np.zeros(n_runs, np.int64),
+        longest_stay=np.zeros(n_runs, np.int64),
+        generations=generations,
+        successes=successes,
+        counts=tables.sum(axis=0),
+        counts_per_run=tables,
+        members={kind: np.array([own[kind].sum() for own in classes]) for kind in AgentClass},
+        generalisers=tuple(
+            _generalisers(own[AgentClass.FULL].reshape(-1, 5), generations) for own in classes
+        ),
+        transitions={},
+        missing=(),
+    )
+
+
+def _generalisers(members: NDArray[np.bool_], generations: NDArray[np.int32]) -> Generalisers:
+    """Fully compositional agents [L, 5] over time, without their genotypes."""
+    rows, ranks = np.nonzero(members)
+    none = np.zeros(0, np.int64)
+    return Generalisers(
+        counts=members.sum(axis=1),
+        generations=generations[rows].astype(np.int64),
+        ranks=ranks,
+        spells=spell_lengths(np.asarray(members.any(axis=1))),
+        first=none,
+        stays=none,
+        verdicts=none,
+        longest_line=0,
+    )
+
+
+if __name__ == "__main__":
+    main()
