@@ -97,7 +97,7 @@ def listen(host: str, port: int) -> socket.socket:
     """
     if not 0 <= port <= LARGEST_PORT:
         raise ValueError(
-            f"--port {port} is no port; give one from 0, for any that is free, to {LARGEST_PORT}"
+            f"--port {port} is no port; give one from 1 to {LARGEST_PORT}, or 0 for any free one"
         )
     try:
         family, kind, number, _, place = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
@@ -114,7 +114,7 @@ def listen(host: str, port: int) -> socket.socket:
         listening.close()
         if error.errno == errno.EADDRINUSE:
             raise ValueError(
-                f"port {port} of {host} is in use; give another with --port, or --port 0 for any that is free"
+                f"port {port} of {host} is in use; give another with --port, or --port 0 for any free one"
             ) from None
         raise ValueError(f"cannot listen at port {port} of {host} ({error.strerror})") from None
     return listening

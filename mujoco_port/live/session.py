@@ -27,6 +27,7 @@ from mujoco_port.live.placing import Placing
 from mujoco_port.live.trial import LiveTrial, Start, Stretch
 
 FRAMES_PER_SECOND: Final = 25
+FIRST: Final = 4  # TOUCH Green, which no agent met during evolution
 # Draws a start in an area, "right" or "left", with a seed.
 DrawStart = Callable[[str, int], Start]
 
@@ -83,7 +84,7 @@ class Session:
     ) -> None:
         self._lab, self._actor, self._draw, self._eyes = lab, actor, draw_start, eyes
         self._placing = Placing(lab.body.robot.plane)
-        self._instruction = actor.instructions[3]
+        self._instruction = actor.instructions[FIRST]
         self._closed, self._speed, self._area, self._seed = closed, 1.0, area, seed
         self._start = draw_start(area, seed)
         self.version = 0

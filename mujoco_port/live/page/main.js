@@ -4,9 +4,9 @@ import { context, draw, drawing } from "./drawing.js";
 import { hand } from "./hand.js";
 import { link } from "./link.js";
 import { insides, show, words } from "./panels.js";
-import { between, readMoment, readScene } from "./scene.js";
+import { OBJECTS, between, readMoment, readScene } from "./scene.js";
 import { drawTraces } from "./traces.js";
-import { eye, jump, looking } from "./view.js";
+import { eye, inPicture, jump, looking } from "./view.js";
 
 const PERIOD_MS = 40;
 // A picture that takes longer is drawn with fewer pixels, at last without shadows.
@@ -19,7 +19,18 @@ const part = (id) => document.getElementById(id);
 const canvas = part("stage");
 const view = eye();
 const seen = { before: null, after: null, since: 0, stale: true };
-const counted = { moments: 0, drawn: 0 };
+// For whoever measures: how much came and was drawn, and where an object is, in [m] and in the window [px].
+const counted = {
+  moments: 0,
+  drawn: 0,
+  where: (name) => [...placeOf(name)].slice(0, 2),
+  inWindow(name) {
+    const { left, top, width, height } = canvas.getBoundingClientRect();
+    const [x, y] = inPicture(look, placeOf(name));
+    return [left + ((x + 1) / 2) * width, top + ((1 - y) / 2) * height];
+  },
+};
+const placeOf = (name) => seen.after.poses.subarray(7 * stage.rows[OBJECTS.indexOf(name)]).subarray(0, 3);
 let state = null;
 let rates = [];
 let stage = null;
@@ -27,7 +38,7 @@ let look = null;
 let fineness = FINENESS.findIndex((each) => each <= (window.devicePixelRatio || 1));
 let slow = [];
 let quiet = 0;
-window.wordarmLive = counted; // for whoever measures
+window.wordarmLive = counted;
 
 const setInsides = insides();
 const ask = link({
@@ -140,7 +151,10 @@ hand(canvas, {
 });
 
 const reset = (changed) => ask({ do: "reset", area: state.area, seed: state.seed, ...changed });
-part("run").addEventListener("click", () => ask({ do: "run", on: state.phase !== "running" || state.paused }));
+part("run").addEventListener("click", () => {
+  if (state.phase === "ended") ask({ do: "again" });
+  ask({ do: "run", on: state.phase !== "running" || state.paused });
+});
 part("again").addEventListener("click", () => ask({ do: "again" }));
 part("speed").addEventListener("change", ({ target }) => ask({ do: "speed", factor: Number(target.value) }));
 part("area").addEventListener("change", ({ target }) => reset({ area: target.value }));

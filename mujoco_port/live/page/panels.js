@@ -9,7 +9,8 @@ const NOTES = {
   open: "Its senses are those of the planar arm, and the robot's hand goes where that arm's end goes.",
   closed: "Its senses are the robot's: hand, skin and eyes. It is answered a tenth of a second later than it ever was in evolution.",
 };
-const SECTORS = ["its left", "ahead", "its right"];
+// Sector 1 is the rightmost; the robot faces the reader, so it stands on the left.
+const SECTORS = ["its right", "ahead", "its left"];
 
 /** An element with a class, put into another. */
 function add(home, name, kind = "", text = "") {
@@ -59,8 +60,7 @@ function senses(home) {
   for (const name of SECTORS) add(home, "small", "top", name);
   OBJECTS.forEach((name, colour) => {
     add(home, "small", "", title(name));
-    // Sector 1 is the rightmost; people read from the left.
-    for (const sector of [2, 1, 0]) lamp(home, 2 + 3 * sector + colour, name);
+    for (const sector of [0, 1, 2]) lamp(home, 2 + 3 * sector + colour, name);
   });
   const row = (name) => {
     const made = add(home, "div", "row");
@@ -68,7 +68,7 @@ function senses(home) {
     return made;
   };
   const feels = row("feels");
-  [["left side", 1], ["right side", 0]].forEach(([name, index]) => {
+  [["right side", 0], ["left side", 1]].forEach(([name, index]) => {
     const span = add(feels, "span");
     lamp(span, index);
     add(span, "small", "", name);
@@ -87,12 +87,12 @@ function senses(home) {
 function motors(home) {
   home.replaceChildren();
   return MOTORS.map(([joint, low, high]) => {
+    if (joint) add(home, "small", "joint", joint);
     const meter = add(home, "div", "meter");
-    if (joint) add(meter, "small", "", joint);
-    const ends = add(meter, "div");
-    add(ends, "small", "", low);
-    add(ends, "small", "", high);
-    return add(add(meter, "div", "scale"), "b");
+    add(meter, "small", "", low);
+    const dot = add(add(meter, "div", "scale"), "b");
+    add(meter, "small", "", high);
+    return dot;
   });
 }
 
@@ -108,8 +108,7 @@ export function show(state) {
   else add(part("badge"), "b", "", "never met during evolution");
   const run = part("run");
   const going = state.phase === "running" && !state.paused;
-  run.textContent = going ? "Pause" : state.phase === "running" ? "Go on" : "Start";
-  run.disabled = state.phase === "ended";
+  run.textContent = going ? "Pause" : state.phase === "running" ? "Go on" : state.phase === "ended" ? "Once more" : "Start";
   part("speed").value = String(state.speed);
   part("loop-note").textContent = NOTES[state.closed ? "closed" : "open"];
   part("loop").value = state.closed ? "closed" : "open";
@@ -127,7 +126,7 @@ function verdict(state) {
   const asked = action === "MOVE" ? "turn the object by 34°" : "ten seconds on end";
   const now = state.fault ? `Broken off: ${state.fault}`
     : state.phase === "ready" ? `Ready to ${order}: ${asked}.`
-    : state.phase === "ended" ? `${order} is over. Say other words: it goes on from here.`
+    : state.phase === "ended" ? `${order} is over. Say other words, and it goes on from here.`
     : `${order}: ${Math.round(100 * state.share)} % done (${asked}).`;
   if (part("now").textContent !== now) part("now").textContent = now;
   const lines = [];

@@ -5,7 +5,7 @@ import { cross, lookAt, multiply, perspective, subtract, unit } from "./matrices
 const HALF_HEIGHT = Math.tan((21.5 * Math.PI) / 180);
 const NARROWEST = 1.02; // as wide as the table needs, in heights of the picture
 const VIEWS = {
-  front: { turn: 0, rise: 0.5, away: 1.2, target: [-0.055, 0.1, 0.19] },
+  front: { turn: 0, rise: 0.5, away: 1.12, target: [-0.06, 0.09, 0.18] },
   above: { turn: 0, rise: 1.5, away: 1.02, target: [-0.02, 0.08, 0.0] },
 };
 
@@ -41,6 +41,12 @@ export function looking(self, width, height) {
   const above = [-Math.sin(turn) * Math.sin(rise), -Math.cos(turn) * Math.sin(rise), flat];
   const matrix = multiply(perspective(HALF_HEIGHT, aspect, 0.05, 20), lookAt(place, target, above));
   return { place, target, above, aspect, matrix };
+}
+
+/** Where a place [m] is in the picture (from -1 to 1). */
+export function inPicture({ matrix }, [x, y, z]) {
+  const row = (k) => matrix[k] * x + matrix[4 + k] * y + matrix[8 + k] * z + matrix[12 + k];
+  return [row(0) / row(3), row(1) / row(3)];
 }
 
 /** Where the ray through a point of the picture (from -1 to 1) meets the height `z` [m]; null if it does not. */
