@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Instruction, ObjectWord
-from arm2d.constants import DT
+from arm2d.constants import BETA_MAX, DT
 from arm2d.records import brief
 from mujoco_port.acting.lab import Lab
 from mujoco_port.acting.rollout import Eyes
@@ -87,6 +87,7 @@ class Session:
         self._instruction = actor.instructions[FIRST]
         self._closed, self._speed, self._area, self._seed = closed, 1.0, area, seed
         self._start = draw_start(area, seed)
+        self._rows = float(lab.body.steps_per_turn)
         self.version = 0
         self._prepare()
 
@@ -123,14 +124,13 @@ class Session:
     def tick(self) -> Moment:
         """Let 1/25 s go by, if time goes on; what is to be seen then."""
         if self.running:
-            self._part += self._speed / (FRAMES_PER_SECOND * DT)
-            while self._part > 1.0 and self.running:
+            self._row += self._speed * self._rows / (FRAMES_PER_SECOND * DT)
+            while self._row > self._rows and self.running:
                 self._advance()
         jumped, self._jumped = self._jumped, False
-        stretch, rows = self._stretch, len(self._stretch.angles)
-        row = min(int(self._part * rows), rows - 1)
+        stretch, row = self._stretch, max(int(self._row) - 1, 0)
         return Moment(
-            DT * max(0.0, self._trial.steps - 1 + self._part),
+            DT * max(0.0, self._trial.steps - 1 + self._row / self._rows),
             stretch.angles[row],
             stretch.places[row],
             stretch.touched[row],
@@ -184,14 +184,14 @@ class Session:
         self._motors, self._inputs = np.zeros(4), np.zeros(18)
         self._changes: list[tuple[int, str]] = [(0, str(self._instruction))]
         self._phase, self._paused, self._fault, self._jumped = "ready", False, "", True
-        body = self._lab.body
+        body, rows = self._lab.body, self._lab.body.steps_per_turn
         self._stretch = Stretch(
-            body.angles[np.newaxis].copy(),
-            body.places[np.newaxis].copy(),
-            np.zeros((1, 3), bool),
-            np.array([[self._start.alpha, 90.0]]),
+            np.tile(body.angles, (rows, 1)),
+            np.tile(body.places, (rows, 1, 1)),
+            np.zeros((rows, 3), bool),
+            np.tile([self._start.alpha, BETA_MAX], (rows, 1)),
         )
-        self._part = 1.0  # of the stretch, that has been seen
+        self._row = self._rows  # physics steps of the stretch that have been seen
 
     def _say(self, instruction: Instruction) -> None:
         if instruction not in self._actor.instructions:
@@ -235,14 +235,14 @@ class Session:
     def _advance(self) -> None:
         """Carry out the next control step, or end the trial."""
         if self._trial.ended:
-            self._phase, self._part = "ended", 1.0
+            self._phase, self._row = "ended", self._rows
             self.version += 1
             return
-        self._part -= 1.0
+        self._row -= self._rows
         try:
             self._stretch = self._trial.step()
         except ValueError as error:  # out of reach, or unstable
-            self._fault, self._phase, self._part = str(error), "ended", 1.0
+            self._fault, self._phase, self._row = str(error), "ended", self._rows
         else:
             self._inputs = self._trial.inputs
             rates, self._motors = self._neurons(self._inputs)

@@ -221,9 +221,8 @@ def test_what_cannot_be_served_is_told_in_one_sentence(options, sentence):
 
 def test_a_port_in_use_is_told_in_one_sentence(served):
     port = urlsplit(served.address).port
-    assert refused(["best-generaliser", f"--port={port}"]) == (
-        f"wordarm: port {port} of 127.0.0.1 is in use; give another with --port, or --port 0 for any free one\n"
-    )
+    sentence = f"wordarm: port {port} of 127.0.0.1 is in use; give another with --port, or --port 0"
+    assert refused(["best-generaliser", f"--port={port}"]).startswith(sentence)
 
 
 def test_without_the_extra_one_sentence_says_what_to_install(tmp_path):

@@ -190,7 +190,7 @@ def test_where_the_robot_cannot_reach_the_trial_breaks_off_with_a_reason(robot, 
     to_the_end(session)
     told = session.state()
     assert told["phase"] == "ended"
-    assert "cannot reach" in told["fault"]
+    assert "beyond the reach of the arm" in told["fault"]
     with pytest.raises(ValueError, match="this trial broke off"):
         session.do(Say(words("touch blue")))
     session.do(Again())
