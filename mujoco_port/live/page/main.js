@@ -4,7 +4,7 @@ import { context, draw, drawing } from "./drawing.js";
 import { hand } from "./hand.js";
 import { link } from "./link.js";
 import { insides, show, words } from "./panels.js";
-import { OBJECTS, between, readMoment, readScene } from "./scene.js";
+import { OBJECTS, alike, between, readMoment, readScene } from "./scene.js";
 import { drawTraces } from "./traces.js";
 import { eye, inPicture, jump, looking } from "./view.js";
 
@@ -53,8 +53,8 @@ const ask = link({
     counted.moments += 1;
     const now = performance.now();
     const moment = readMoment(bytes);
-    const same = seen.after && seen.after.seconds === moment.seconds;
-    seen.before = same ? null : seen.after;
+    if (seen.after && alike(seen.after, moment)) return;
+    seen.before = seen.after?.seconds < moment.seconds ? seen.after : null;
     seen.after = moment;
     seen.since = now;
     seen.stale = true;

@@ -36,6 +36,12 @@ export function readMoment(bytes) {
   return { seconds, alpha, beta, touched, poses: new Float32Array(bytes, 16) };
 }
 
+/** Whether two moments look the same. */
+export function alike(one, other) {
+  return ["seconds", "alpha", "beta", "touched"].every((name) => one[name] === other[name])
+    && one.poses.every((each, k) => each === other.poses[k]);
+}
+
 /** A moment on the way from one to another, `part` from 0 to 1; what jumps is not led through the air. */
 export function between(before, after, part) {
   if (!before || part >= 1 || before.poses.length !== after.poses.length) return after;
