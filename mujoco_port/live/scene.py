@@ -119,7 +119,7 @@ def parts_of(posture: Posture) -> list[Part]:
 
 def joined(parts: list[Part]) -> list[Part]:
     """The same with as few parts as there are bodies and colours: fewer calls to draw."""
-    groups: dict[tuple[Any, ...], list[Surface]] = {}
+    groups: dict[tuple[int, str, Material], list[Surface]] = {}
     for part in parts:
         groups.setdefault((part.body, part.kind, part.material), []).append(part.surface)
     # What stands in front first: what lies behind it need not be painted.

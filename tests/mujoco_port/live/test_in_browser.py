@@ -66,8 +66,8 @@ def test_words_are_clicked_and_both_verdicts_are_read(browser):
 
 
 def test_an_object_is_dragged_over_the_table(browser):
-    browser.click('[data-view="above"]')
     drawn = browser.evaluate("wordarmLive.drawn")
+    browser.click('[data-view="above"]')
     browser.wait_for(f"wordarmLive.drawn > {drawn}")
     before = browser.evaluate("wordarmLive.where('green')")
     x, y = browser.evaluate("wordarmLive.inWindow('green')")
