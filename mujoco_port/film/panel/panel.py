@@ -1,4 +1,4 @@
-"""The picture of an agent's mind beside the robot: what stands still is drawn once, what moves step by step."""
+"""The picture of an agent's mind beside the robot: what stands still is drawn once, the rest step by step."""
 
 from __future__ import annotations
 
