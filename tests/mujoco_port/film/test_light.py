@@ -27,9 +27,9 @@ def stage(robot):
 
 def brightened(stage, centre):
     """How much brighter pixels of a square of the table become by the arm's light, and their places [cm]."""
-    arm, stage._arm = stage._arm, None
+    arm, stage._back.arm = stage._back.arm, None
     without = stage.close_up(centre, 0.1, 500).astype(int)
-    stage._arm = arm
+    stage._back.arm = arm
     lit = stage.close_up(centre, 0.1, 500).astype(int) - without
     near = stage._near
     on_table = np.abs(near._distance - near._ground.distance) < SLACK / 4  # else it is the beam to the hand
