@@ -43,6 +43,7 @@ GROUPS: Final = {
     },
     "robot": {
         "port": Entry("port:Port", "a trial, or all nine, on the iCub, as a video"),
+        "live": Entry("robot:Live", "the iCub acts in a web page, and listens to you"),
         "agree": Entry("robot:Agree", "how often the robot does what the planar arm does"),
         "workspace": Entry("robot:Workspace", "whether a robot reaches everywhere, and hits nothing"),
     },

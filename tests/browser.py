@@ -29,7 +29,6 @@ NEEDS_BROWSER: Final = pytest.mark.skipif(
 OPTIONS: Final = (
     "--headless",
     "--no-sandbox",
-    "--disable-gpu",
     "--disable-quic",
     "--no-first-run",
     "--disable-background-networking",
@@ -37,6 +36,7 @@ OPTIONS: Final = (
     "--disable-sync",
     "--remote-debugging-port=0",
 )
+WEBGL: Final = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 CONTRAST: Final = Path(__file__).with_name("contrast.js").read_text(encoding="utf-8")
 # Much more than anything here takes; a busy machine is no fault.
 PATIENCE: Final = 60.0
@@ -47,13 +47,15 @@ class Browser:
 
     Args:
         folder: An empty folder for its profile.
+        webgl: Whether the processor is to draw what a graphics card would.
 
     Attributes:
         messages: Whatever the pages wrote to the console, threw, or failed to load.
         requests: Every address that was asked for.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, *, webgl: bool = False) -> None:
+        self._options = WEBGL if webgl else ("--disable-gpu",)
         self.messages: list[str] = []
         self.requests: list[str] = []
         self._folder, self._sent, self._open = folder, 0, ExitStack()
@@ -61,7 +63,7 @@ class Browser:
     def __enter__(self) -> Browser:
         assert CHROMIUM is not None, "there is no chromium on this machine"
         self._process = subprocess.Popen(
-            [CHROMIUM, *OPTIONS, f"--user-data-dir={self._folder}", "about:blank"],
+            [CHROMIUM, *OPTIONS, *self._options, f"--user-data-dir={self._folder}", "about:blank"],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
@@ -84,9 +86,15 @@ class Browser:
             self._process.wait()
 
     def open(
-        self, page: Path, *, width: int = 1200, height: int = 900, scheme: str = "light", motion: bool = False
+        self,
+        page: Path | str,
+        *,
+        width: int = 1200,
+        height: int = 900,
+        scheme: str = "light",
+        motion: bool = False,
     ) -> None:
-        """Load a file, in a window of some width and height [px]; `scheme` is light or dark."""
+        """Load a file or an address, in a window of some width and height [px]; `scheme` is light or dark."""
         size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600}
         self._do("Emulation.setDeviceMetricsOverride", **size)
         still = "no-preference" if motion else "reduce"
@@ -95,7 +103,7 @@ class Browser:
             "Emulation.setEmulatedMedia", features=[{"name": n, "value": v} for n, v in features.items()]
         )
         self.evaluate("void (window.isOld = true)")
-        self._do("Page.navigate", url=page.resolve().as_uri())
+        self._do("Page.navigate", url=page if isinstance(page, str) else page.resolve().as_uri())
         self.wait_for("!window.isOld && document.readyState === 'complete'")
 
     def evaluate(self, expression: str) -> Any:

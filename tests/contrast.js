@@ -8,8 +8,13 @@
     }
     return [255, 255, 255];
   };
+  // Relative luminance, as WCAG defines it.
+  const luminance = (colour) => {
+    const [r, g, b] = colour.map((each) => each / 255).map((c) => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
   const ratio = (one, other) => {
-    const [low, high] = [wordarm.luminance(one), wordarm.luminance(other)].sort((a, b) => a - b);
+    const [low, high] = [luminance(one), luminance(other)].sort((a, b) => a - b);
     return (high + 0.05) / (low + 0.05);
   };
   // On the stage: letters on their object, all other words on the darker or lighter of the table's two colours.

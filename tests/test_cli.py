@@ -263,7 +263,7 @@ def test_the_list_of_commands_fits_a_screen(capsys):
     lines = capsys.readouterr().out.splitlines()
     assert max(map(len, lines)) <= 80
     assert len(lines) <= 40
-    assert len(COMMANDS) <= 16
+    assert len(COMMANDS) <= 17
     assert [line for line in lines if line in GROUPS] == list(GROUPS)
     for name, entry in COMMANDS.items():
         assert sum(line.startswith(f"  {name} ") and line.endswith(entry.line) for line in lines) == 1

@@ -31,6 +31,10 @@ class ClosedLoop:
         alpha: [deg], where S1 starts.
         readings: How the paper is understood.
         body: The robot.
+
+    Attributes:
+        heard: The instruction that is heard from the next step on.
+        sensed: I1 to I18 of every control step so far.
     """
 
     def __init__(
@@ -42,8 +46,8 @@ class ClosedLoop:
         body: Body,
     ) -> None:
         self._think = controller(genotype, readings)
-        self._heard, self._readings, self._body = instruction, readings, body
-        self.sensed: list[list[float]] = []  # I1 to I18 of every control step so far
+        self.heard, self._readings, self._body = instruction, readings, body
+        self.sensed: list[list[float]] = []
         self._here: Angles = (alpha, c.BETA_MAX)  # where S2 is to be at this moment
         self._next: Angles = self._here
 
@@ -57,7 +61,7 @@ class ClosedLoop:
         beta = beta_of(self._body.robot.plane, self._body.hand)
         sides = felt(so_far.contact[-SKIN_MEMORY:])
         places = [(x, y) for x, y in seen.tolist()]
-        inputs = sense(alpha, beta, places, sides, self._heard, self._readings)
+        inputs = sense(alpha, beta, places, sides, self.heard, self._readings)
         self.sensed.append(inputs)
         turn1, turn2 = self._think(inputs)
         self._here, (alpha, beta) = self._next, self._next

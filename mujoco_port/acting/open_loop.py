@@ -10,8 +10,56 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings
 from arm2d import constants as c
+from arm2d.geometry import Point
 from arm2d.reference import Side, controller, sense, touch
 from mujoco_port.acting.rollout import Angles, PhysicalRecord
+
+
+class PlanarAgent:
+    """An agent that lives in the 2D world, one step at a time.
+
+    Args:
+        genotype: [84].
+        alpha: [deg], where S1 starts.
+        discs: [3, 2] in [cm], centres of blue, green and red.
+        readings: The world.
+        delay: Steps from what is sensed to the turn that answers to it, beyond the step of the 2D world.
+
+    Attributes:
+        alpha: Of S1, [deg].
+        beta: Of S2, [deg].
+        places: Centres of the discs, [cm].
+        sides: On which side of S2 each is touched.
+        turned: By how much S1 has turned in the last step, [deg].
+    """
+
+    def __init__(
+        self,
+        genotype: NDArray[np.float64],
+        alpha: float,
+        discs: NDArray[np.float64],
+        readings: Readings,
+        delay: int = 0,
+    ) -> None:
+        self._think, self._readings = controller(genotype, readings), readings
+        self.alpha, self.beta, self.turned = alpha, c.BETA_MAX, 0.0
+        self.places: list[Point] = [(x, y) for x, y in discs.tolist()]
+        self.sides: list[Side] = [None, None, None]
+        self._turns = deque([(0.0, 0.0)] * delay)
+
+    def step(self, heard: Instruction) -> list[float]:
+        """Sense, think and turn, while two words are heard; I1 to I18 as they were sensed."""
+        alpha, beta, readings = self.alpha, self.beta, self._readings
+        inputs = sense(alpha, beta, self.places, self.sides, heard, readings)
+        self._turns.append(self._think(inputs))
+        turn1, turn2 = self._turns.popleft()
+        self.alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
+        self.beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))
+        self.turned = self.alpha - alpha
+        self.places, self.sides = touch(
+            alpha, beta, self.alpha, self.beta, self.places, self.sides, readings.object_radius
+        )
+        return inputs
 
 
 def planar_angles(
@@ -35,19 +83,10 @@ def planar_angles(
         readings: The world.
         delay: Steps from what is sensed to the turn that answers to it, beyond the step of the 2D world.
     """
-    think = controller(genotype, readings)
-    places = [(x, y) for x, y in discs.tolist()]
-    sides: list[Side] = [None, None, None]
-    beta = c.BETA_MAX
-    turns = deque([(0.0, 0.0)] * delay)
+    agent = PlanarAgent(genotype, alpha, discs, readings, delay)
     while True:
-        yield alpha, beta
-        turns.append(think(sense(alpha, beta, places, sides, instruction, readings)))
-        turn1, turn2 = turns.popleft()
-        new_alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
-        new_beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))
-        places, sides = touch(alpha, beta, new_alpha, new_beta, places, sides, readings.object_radius)
-        alpha, beta = new_alpha, new_beta
+        yield agent.alpha, agent.beta
+        agent.step(instruction)
 
 
 class OpenLoop:

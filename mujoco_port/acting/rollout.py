@@ -147,38 +147,86 @@ def carry_out(
         OutOfReachError: If the robot cannot reach a place.
         UnstableError: If the simulation blows up.
     """
-    plane = body.robot.plane
+    trial = Carrying(body, kinematics, pilot, eyes, instruction, discs)
+    for _ in range(MOST_STEPS):
+        if not trial.step() or ended(trial.record):
+            break
+    return trial.record
 
-    def solve(order: Angles, before: NDArray[np.float64] | None, raised: float) -> NDArray[np.float64]:
-        alpha, beta = np.array(order[0]), np.array(order[1])
-        target, heading = hand_targets(plane, alpha, beta, raised), float(hand_headings(plane, alpha, beta))
-        return (
-            kinematics.settle(target, heading) if before is None else kinematics.step(before, target, heading)
-        )
 
-    orders = list(pilot.first())
-    joints = [solve(orders[0], None, 0.0)]
-    joints.append(solve(orders[1], joints[0], 0.0))
-    joints.insert(0, joints[0])  # it has been standing still
-    body.start(joints[0], on_table(plane, discs))
-    log = _Log(body, instruction, plane.scale)
-    record = log.record(orders[:1])
-    raised = 0.0
-    for step in range(MOST_STEPS):
-        seen = eyes(orders[step][0])
-        order = pilot.after(record, seen.by_camera)
-        last = order is None
+class Carrying:
+    """A trial that is being carried out, one control step at a time.
+
+    Args:
+        body: The robot; where it was before does not matter.
+        kinematics: Its inverse kinematics.
+        pilot: Who gives the orders.
+        eyes: How agent and robot see objects.
+        instruction: What is asked; only kept.
+        discs: [3, 2] in [cm], centres of blue, green and red at the start.
+
+    Raises:
+        OutOfReachError: If the robot cannot reach a place.
+    """
+
+    def __init__(
+        self,
+        body: Body,
+        kinematics: ArmKinematics,
+        pilot: Pilot,
+        eyes: Eyes,
+        instruction: Instruction,
+        discs: NDArray[np.float64],
+    ) -> None:
+        self._body, self._kinematics, self._pilot, self._eyes = body, kinematics, pilot, eyes
+        self._plane = plane = body.robot.plane
+        self._orders = list(pilot.first())
+        joints = [self._solve(self._orders[0], None, 0.0)]
+        joints.append(self._solve(self._orders[1], joints[0], 0.0))
+        joints.insert(0, joints[0])  # it has been standing still
+        self._joints = joints
+        body.start(joints[0], on_table(plane, discs))
+        self._log = _Log(body, instruction, plane.scale)
+        self._raised, self._done, self._first = 0.0, 0, 0
+
+    @property
+    def record(self) -> PhysicalRecord:
+        """What has been done since the start, or since other words were asked; views, not copies."""
+        return self._log.record(self._orders[self._first : self._done + 1], self._log.before)
+
+    def ask(self, instruction: Instruction) -> None:
+        """Begin another record from here, of other words; the pilot hears of them from its owner."""
+        self._log, self._first = self._log.followed_by(instruction), self._done
+
+    def step(self) -> bool:
+        """Carry out one control step; whether there are more orders.
+
+        Raises:
+            OutOfReachError: If the robot cannot reach a place.
+            UnstableError: If the simulation blows up.
+        """
+        orders, joints, step, plane = self._orders, self._joints, self._done, self._plane
+        so_far = self._log.record(orders[self._first : step + 1])
+        seen = self._eyes(orders[step][0])
+        order = self._pilot.after(so_far, seen.by_camera)
         orders.append(orders[-1] if order is None else order)
-        wanted = above_objects(body, on_table(plane, seen.from_j1), record, orders[-1])
-        raised += float(np.clip(wanted - raised, -MOST_RISE, MOST_RISE))
-        joints.append(joints[-1] if order is None else solve(order, joints[-1], raised))
+        wanted = above_objects(self._body, on_table(plane, seen.from_j1), so_far, orders[-1])
+        self._raised += float(np.clip(wanted - self._raised, -MOST_RISE, MOST_RISE))
+        joints.append(joints[-1] if order is None else self._solve(order, joints[-1], self._raised))
         before = max(step - 1, 0)
         directions = np.array([orders[before], *orders[step : step + 3]])
-        log.take(directions, np.array(joints[-4:]))
-        record = log.record(orders[: step + 2])
-        if last or ended(record):
-            break
-    return record
+        self._log.take(directions, np.array(joints[-4:]))
+        self._done += 1
+        return order is not None
+
+    def _solve(self, order: Angles, before: NDArray[np.float64] | None, raised: float) -> NDArray[np.float64]:
+        """Joint angles [J] in [rad] for an order, near those before it."""
+        alpha, beta = np.array(order[0]), np.array(order[1])
+        target = hand_targets(self._plane, alpha, beta, raised)
+        heading = float(hand_headings(self._plane, alpha, beta))
+        if before is None:
+            return self._kinematics.settle(target, heading)
+        return self._kinematics.step(before, target, heading)
 
 
 def above_objects(body: Body, objects: NDArray[np.float64], record: PhysicalRecord, order: Angles) -> float:
@@ -203,8 +251,8 @@ class _Log:
     def __init__(self, body: Body, instruction: Instruction, scale: float) -> None:
         self._body, self._skin = body, ContactSensors(body)
         self._asked = instruction, scale
-        self._filled = 0
-        n, joints = MOST_STEPS * body.steps_per_turn, len(body.angles)
+        self._filled, self.before = 0, 0  # rows, and those of them that were there before the words
+        n, joints = (MOST_STEPS + 1) * body.steps_per_turn, len(body.angles)
         self._kept = {
             "alpha": np.empty(n),
             "still": np.empty(n, bool),
@@ -242,7 +290,15 @@ class _Log:
         body.refuse_unstable()
         self._filled += count
 
-    def record(self, orders: list[Angles]) -> PhysicalRecord:
-        """What has been kept so far; views, not copies."""
-        kept = {name: array[: self._filled] for name, array in self._kept.items()}
+    def followed_by(self, instruction: Instruction) -> _Log:
+        """A log that goes on from here with other words; it remembers the last control step."""
+        log = _Log(self._body, instruction, self._asked[1])
+        log.before = log._filled = min(self._filled, self._body.steps_per_turn)
+        for name, array in self._kept.items():
+            log._kept[name][: log.before] = array[self._filled - log.before : self._filled]
+        return log
+
+    def record(self, orders: list[Angles], since: int = 0) -> PhysicalRecord:
+        """What has been kept since a row; views, not copies."""
+        kept = {name: array[since : self._filled] for name, array in self._kept.items()}
         return PhysicalRecord(*self._asked, np.array(orders), **kept)

@@ -94,6 +94,51 @@ class Head:
         return np.array([way @ left, way @ np.cross(ahead, left) + BELOW, left[2]])
 
 
+class Gaze:
+    """A neck and two eyes that follow S1's direction, moment by moment.
+
+    Args:
+        model: Of `models.filmed`.
+        robot: Its record, and
+        presence: the part of it that says how it looks.
+
+    Attributes:
+        addresses: [7], where the joints of neck and eyes stand among the model's positions.
+    """
+
+    def __init__(self, model: mujoco.MjModel, robot: Robot, presence: Presence) -> None:
+        self._model, self._robot, self._presence = model, robot, presence
+        self._data = mujoco.MjData(model)
+        self._head = Head(model, self._data, presence)
+        self._acting = [model.joint(ROBOT_PREFIX + name).qposadr[0] for name in robot.joints]
+        self._eyes = np.zeros((2, 2))
+        names = [ROBOT_PREFIX + name for eye in presence.eyes for name in eye_joints(eye)]
+        self.addresses = [*self._head.neck, *(model.joint(name).qposadr[0] for name in names)]
+
+    def follow(self, angles: NDArray[np.float64], alpha: float, moment_s: float | None) -> list[float]:
+        """Angles [7] in [rad] of neck and eyes.
+
+        Args:
+            angles: [J] in [rad], of what acts.
+            alpha: [deg], direction of S1.
+            moment_s: [s] since it was asked last; None if it has had all the time it needs.
+        """
+        data, head, presence = self._data, self._head, self._presence
+        still = moment_s is None
+        past = np.inf if moment_s is None else moment_s
+        data.qpos[self._acting] = angles
+        place = looked_at(self._robot, np.array([alpha]))[0]
+        for _ in range(SETTLE if still else 1):
+            fastest = presence.neck_speed * past
+            wish = head.aim(place) - data.qpos[head.neck]
+            share = 1.0 - np.exp(-past / NECK_LAG_S)
+            data.qpos[head.neck] += np.clip(share * wish, -fastest, fastest)
+        mujoco.mj_kinematics(self._model, data)
+        fastest = presence.eye_speed * past
+        self._eyes = self._eyes + np.clip(head.eye_angles(place) - self._eyes, -fastest, fastest)
+        return [*data.qpos[head.neck], *self._eyes.ravel()]
+
+
 def looked_at(robot: Robot, alpha: NDArray[np.float64]) -> NDArray[np.float64]:
     """Where the agent's camera looks, [F, 3] in [m]: along S1, as far away as objects are."""
     angle, far = np.radians(alpha), robot.plane.scale * CHORD_END_DISTANCE
@@ -122,26 +167,13 @@ def bearing(
     presence = robot.presence
     if presence is None:
         return Bearing(np.empty(0, int), np.empty((len(angles), 0)))
-    data = mujoco.MjData(model)
-    head = Head(model, data, presence)
-    acting = [model.joint(ROBOT_PREFIX + name).qposadr[0] for name in robot.joints]
-    places = looked_at(robot, alpha)
-    eyes = np.zeros((2, 2))
-    rows = []
-    for moment, (posture, place) in enumerate(zip(angles, places, strict=True)):
-        data.qpos[acting] = posture
-        for _ in range(1 if moment else SETTLE):
-            fastest = presence.neck_speed * moment_s if moment else np.inf
-            wish = head.aim(place) - data.qpos[head.neck]
-            share = 1.0 - np.exp(-moment_s / NECK_LAG_S) if moment else 1.0
-            data.qpos[head.neck] += np.clip(share * wish, -fastest, fastest)
-        mujoco.mj_kinematics(model, data)
-        fastest = presence.eye_speed * moment_s if moment else np.inf
-        eyes = eyes + np.clip(head.eye_angles(place) - eyes, -fastest, fastest)
-        rows.append([*data.qpos[head.neck], *eyes.ravel()])
-    names = [ROBOT_PREFIX + name for eye in presence.eyes for name in eye_joints(eye)]
+    gaze = Gaze(model, robot, presence)
+    rows = [
+        gaze.follow(posture, direction, moment_s if moment else None)
+        for moment, (posture, direction) in enumerate(zip(angles, alpha, strict=True))
+    ]
     hands, curls = _hands(presence, _eased(pointing, moment_s))
-    addresses = [*head.neck, *(model.joint(name).qposadr[0] for name in [*names, *hands])]
+    addresses = [*gaze.addresses, *(model.joint(name).qposadr[0] for name in hands)]
     return Bearing(np.array(addresses), np.concatenate([np.array(rows), curls], axis=1))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -21,6 +22,8 @@ from mujoco_port.film.kinematic import FRAMES_PER_STEP, roll_out
 if TYPE_CHECKING:
     from mujoco_port.acting.rollout import PhysicalRecord
     from mujoco_port.acting.verdict import Verdict
+
+Neurons = Callable[[NDArray[np.float64]], tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 
 @dataclass(frozen=True)
@@ -76,14 +79,25 @@ def think(
 
     To be looked at: what decides a trial is the kernel's arithmetic.
     """
+    neurons = thinking(genotype, readings)
+    rates, motors = zip(*map(neurons, inputs), strict=True)
+    return np.array(rates), np.array(motors)
+
+
+def thinking(genotype: ArrayLike, readings: Readings) -> Neurons:
+    """The network, step by step: from 18 inputs to its inter-neurons [3] and motor neurons [4]."""
     net = decode(genotype, readings)
-    y, rates = np.zeros(c.N_INTER), np.empty((len(inputs), c.N_INTER))
-    sensed = _squash(net.gain[0] * inputs + net.input_bias[0])  # eq. 1
-    for step, s in enumerate(sensed):
+    y = np.zeros(c.N_INTER)
+
+    def step(inputs: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        nonlocal y
+        s = _squash(net.gain[0] * inputs + net.input_bias[0])  # eq. 1
         drive = s @ net.sensory_weights[0] + _squash(y + net.inter_biases[0]) @ net.recurrent_weights[0]
         y = y + c.DT / net.decay_constants[0] * (drive - y)  # eq. 2
-        rates[step] = _squash(y + net.inter_biases[0])
-    return rates, _squash(rates @ net.motor_weights[0] + net.motor_bias[0])  # eq. 3
+        rates = _squash(y + net.inter_biases[0])
+        return rates, _squash(rates @ net.motor_weights[0] + net.motor_bias[0])  # eq. 3
+
+    return step
 
 
 def _squash(values: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -27,9 +27,9 @@ def stage(robot):
 
 def brightened(stage, centre):
     """How much brighter pixels of a square of the table become by the arm's light, and their places [cm]."""
-    arm, stage._arm = stage._arm, None
+    arm, stage._back.arm = stage._back.arm, None
     without = stage.close_up(centre, 0.1, 500).astype(int)
-    stage._arm = arm
+    stage._back.arm = arm
     lit = stage.close_up(centre, 0.1, 500).astype(int) - without
     near = stage._near
     on_table = np.abs(near._distance - near._ground.distance) < SLACK / 4  # else it is the beam to the hand
@@ -44,9 +44,9 @@ def test_the_light_of_s2_ends_straight_below_the_hand_to_a_millimetre(stage, rob
     stage.pose(take.angles[moment], take.objects[moment] + 1.0)  # no object in the way of the light
     stage.shine(*take.planar[moment])
     hand = stage.data.site_xpos[stage.model.site(HAND_SITE).id].copy()
-    stage._option.geomgroup[VISUAL_GROUP] = 0  # nor the robot
+    stage._back.option.geomgroup[VISUAL_GROUP] = 0  # nor the robot
     lit, places = brightened(stage, hand[:2])
-    stage._option.geomgroup[VISUAL_GROUP] = 1
+    stage._back.option.geomgroup[VISUAL_GROUP] = 1
     joint, tip = arm_points(*take.planar[moment])
     along = (tip - joint) / np.linalg.norm(tip - joint)
     side = np.array([-along[1], along[0]])

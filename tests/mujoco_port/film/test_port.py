@@ -72,7 +72,7 @@ def stage(robot):
 
 
 def test_picture_over_the_backdrop_is_the_one_that_is_drawn_at_once(robot, shortest, monkeypatch):
-    monkeypatch.setattr("mujoco_port.film.stage.dimmed", np.copy)  # only a backdrop is dimmed
+    monkeypatch.setattr("mujoco_port.film.stage.view.dimmed", np.copy)  # only a backdrop is dimmed
     take = kinematic_take(shortest, robot, 1)
     with Stage(robot, 400, 360) as stage:
         pictures = [pictures_of(stage, take, k) for k in (0, len(take.steps) // 2, -1)]
