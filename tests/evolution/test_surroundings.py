@@ -43,7 +43,6 @@ def evaluated(tmp_path_factory):
             "NUMBA_NUM_THREADS": "0",
             "OMP_NUM_THREADS": "none",
             "OPENBLAS_NUM_THREADS": "-1",
-            "PYTHONOPTIMIZE": "2",
             "SOURCE_DATE_EPOCH": "yesterday",
             "TERM": "dumb",
             "COLUMNS": "0",
@@ -65,6 +64,13 @@ def test_variables_of_the_shell_change_nothing(environment, evaluated, tmp_path)
     assert done.returncode == 0, done.stderr
     assert contents(tmp_path / "out") == evaluated
     assert "never met" in done.stdout  # below the table, which a screen of no columns would swallow
+
+
+def test_without_docstrings_and_assertions_a_report_is_written(finished_run, tmp_path):
+    """Not evaluated: everything would be compiled once more."""
+    done = run([*WORDARM, "report", str(finished_run), "--output=x.html"], tmp_path, PYTHONOPTIMIZE="2")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "230 of 230" in (tmp_path / "x.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("columns", ["0", "", "none", "-3"])
