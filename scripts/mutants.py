@@ -30,8 +30,8 @@ from scripts.trying_faults import ROOT, Attempts, Copy, Mutant, Row, row_of
 
 # Which tests concern which modules, the quickest first; the first pattern that fits counts.
 KERNEL: Final = (
-    "tests/arm2d/test_arithmetic.py",
     "tests/arm2d/test_world.py",
+    "tests/arm2d/test_arithmetic.py",
     "tests/evolution/runs/test_golden.py",
     "tests/arm2d/test_kernel.py",
     "tests/arm2d/test_camera_at_end.py",
@@ -46,7 +46,9 @@ TESTS: Final[dict[str, tuple[str, ...]]] = {
     "arm2d/arithmetic.py": KERNEL,
     "arm2d/constants.py": KERNEL,
     "arm2d/geometry.py": KERNEL,
-    "arm2d/reference.py": KERNEL,
+    "arm2d/reference.py": ("tests/arm2d/test_kernel.py", *KERNEL),
+    "arm2d/kernel/camera_at_end.py": ("tests/arm2d/test_camera_at_end.py", *KERNEL),
+    "arm2d/kernel/stepping.py": ("tests/arm2d/worlds/test_stepping.py", *KERNEL),
     "arm2d/kernel/*.py": KERNEL,
     "arm2d/trials.py": (
         "tests/arm2d/test_trials.py",
@@ -97,7 +99,7 @@ def witnesses_of(path: str) -> tuple[str, ...]:
     """The tests that concern a module; those that have its name come first."""
     tests = next(tests for pattern, tests in TESTS.items() if Path(path).match(pattern))
     own = f"tests/{Path(path).parent}/test_{Path(path).stem}.py"
-    return (own, *tests) if own not in tests and (ROOT / own).exists() else tests
+    return (own, *(test for test in tests if test != own)) if (ROOT / own).exists() else tests
 
 
 def summary(rows: list[Row]) -> str:

@@ -102,23 +102,23 @@ class Copy:
         self._tried += 1
         os.utime(path, (stamp.st_atime, stamp.st_mtime + 10 * self._tried))
         try:
-            return self.run(mutant.tests)
+            return self._run_in_turn(mutant.tests)
         finally:
             path.write_bytes(sound)
             os.utime(path, (stamp.st_atime, stamp.st_mtime))
 
-    def run(self, tests: Sequence[str]) -> tuple[str, float, str]:
-        """The same, of tests in the tree as it is: the first by itself, then the quick, then the slow."""
-        seconds = 0.0
-        first = [tests[:1]] if len(tests) > 1 else []
-        for asked in (*first, ("-m", "not slow", *tests), ("-m", "slow", *tests)):
-            outcome, taken, failed = self._run_pytest(asked)
-            seconds += taken
-            if outcome != "survived":
-                return outcome, seconds, failed
-        return "survived", seconds, ""
+    def _run_in_turn(self, tests: Sequence[str]) -> tuple[str, float, str]:
+        """The same of the first test by itself, then of all quick ones, then of the slow, while all is well."""
+        turns = (tests[:1], ("-m", "not slow", *tests), ("-m", "slow", *tests))
+        outcome, seconds, failed = "survived", 0.0, ""
+        for asked in turns if len(tests) > 1 else [tests]:
+            if outcome == "survived":
+                outcome, taken, failed = self.run(asked)
+                seconds += taken
+        return outcome, seconds, failed
 
-    def _run_pytest(self, asked: Sequence[str]) -> tuple[str, float, str]:
+    def run(self, asked: Sequence[str]) -> tuple[str, float, str]:
+        """The same, of tests in the tree as it is."""
         began = time.monotonic()
         with (self._place / "said").open("w+", encoding="utf-8") as said:
             process = subprocess.Popen(  # noqa: S603 - our own words

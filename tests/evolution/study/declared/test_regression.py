@@ -5,6 +5,7 @@ import csv
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
+from scipy.stats import chi2
 
 from arm2d import Condition, Readings
 from evolution.cli import main
@@ -89,6 +90,17 @@ def test_known_effects_lie_in_their_intervals(plateau, factor, level, true):
 def test_factors_that_do_something_are_told_from_those_that_do_not(plateau):
     found = {FACTORS[i].name for i in np.flatnonzero(plateau.corrected < 0.05)}
     assert found == {"mutation", "parent_scaling", "start_areas"}
+
+
+def test_p_of_a_factor_is_that_of_walds_chi_square(models):
+    """Robust errors have no degrees of freedom: F would give larger p."""
+    model = next(model for own in models.values() for model in own if not model.interactions)
+    first = 1
+    for own, p in zip(FACTORS, model.p, strict=True):
+        levels = slice(first, first := first + len(own.levels) - 1)
+        b = model.coefficients[levels]
+        distance = b @ np.linalg.solve(model.covariance[levels, levels], b)
+        assert p == pytest.approx(chi2.sf(distance, len(b)), rel=1e-6), own.name
 
 
 def test_interaction_that_is_there_enters_and_others_do_not(plateau):
