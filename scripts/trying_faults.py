@@ -108,7 +108,7 @@ class Copy:
             os.utime(path, (stamp.st_atime, stamp.st_mtime))
 
     def _run_in_turn(self, tests: Sequence[str]) -> tuple[str, float, str]:
-        """The same of the first test by itself, then of all quick ones, then of the slow, while all is well."""
+        """The same, of the first test by itself, then of all quick ones, then of the slow."""
         turns = (tests[:1], ("-m", "not slow", *tests), ("-m", "slow", *tests))
         outcome, seconds, failed = "survived", 0.0, ""
         for asked in turns if len(tests) > 1 else [tests]:
