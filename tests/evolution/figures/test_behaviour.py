@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from arm2d import NON_EXPERIENCED, Condition, ObjectWord, Readings
 from arm2d.constants import DT
-from arm2d.drawing import INK, OBJECT_COLOURS
+from arm2d.drawing import INK, OBJECT_COLOURS, STYLE, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.lesions import LESIONS, LesionScores
 from evolution.agents.variance import VarianceShares, bin_times, events_of, mean_by_instruction
@@ -112,8 +112,9 @@ def test_the_objects_sectors_lie_behind_the_lines_in_their_colours(behaviour):
 
 def test_titles_tell_the_instruction_its_success_and_whether_it_was_met(behaviour):
     for instruction in INDICATE.instructions:
-        axes = Figure().add_subplot()
-        draw_alpha(axes, behaviour, instruction, READINGS)
+        with look(STYLE):  # which says where a title stands
+            axes = Figure().add_subplot()
+            draw_alpha(axes, behaviour, instruction, READINGS)
         share = 100 * behaviour.success[behaviour.of(instruction)].mean()
         never_met = ", never met" if instruction in NON_EXPERIENCED else ""
         assert axes.get_title(loc="left") == str(instruction)

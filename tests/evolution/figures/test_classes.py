@@ -115,8 +115,8 @@ def test_dots_are_the_runs_and_their_mean_in_the_row_of_their_lesion(behaviours,
         drawn = set()
         for behaviour in classes.values():
             own = [line for line in axes.lines if to_hex(line.get_color()) == colours[str(behaviour.kind)]]
-            large = [line for line in own if line.get_markersize() > 5]
-            small = [line for line in own if line.get_markersize() < 5]
+            large = [line for line in own if line.get_alpha() is None]
+            small = [line for line in own if line.get_alpha() is not None]  # pale
             success = 100 * behaviour.success(known=True)
             if not len(success):
                 assert own == []
