@@ -12,6 +12,7 @@ from __future__ import annotations
 import pickle
 import warnings
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -56,7 +57,18 @@ def _keep(dispatcher: Any, function: Callable, folder: str) -> None:
 
 
 class _SealedFile(IndexDataCacheFile):
-    """Numba's index and data files, each behind a checksum of its content."""
+    """Numba's index and data files, each behind a checksum of its content, data with the key they belong to.
+
+    Two machines that share a home and compile at once both take the first free name of a data file: the
+    index of one may come to name the code that the other compiled for its own processor.
+    """
+
+    def save(self, key: Any, data: Any) -> None:
+        super().save(key, (key, data))
+
+    def load(self, key: Any) -> Any:
+        found = super().load(key)
+        return found[1] if found and found[0] == key else None
 
     def _load_index(self) -> dict:
         found = _read(Path(self._index_path))
@@ -91,12 +103,16 @@ class _SealedCache(FunctionCache):
         try:
             super().save_overload(sig, data)
         except OSError as error:
-            warnings.warn(
+            _tell_once(
                 f"compiled code: {Path(self._cache_path).parent} cannot be written to ({error.strerror}); "
-                "every process compiles what is missing there",
-                CacheWarning,
-                stacklevel=1,
+                "every process compiles what is missing there"
             )
+
+
+@cache
+def _tell_once(sentence: str) -> None:
+    """Warn of something; while Numba compiles, Python forgets of what it has warned."""
+    warnings.warn(sentence, CacheWarning, stacklevel=3)
 
 
 def _read(path: Path) -> Any:

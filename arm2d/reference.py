@@ -77,7 +77,8 @@ def carry_out(
 ) -> Score:
     """The same for whatever turns 18 inputs into the turns of S1 and S2; S2 starts at `beta` [deg]."""
     r, target = readings, instruction.object
-    placed: list[Point] = [(x, y) for x, y in discs]
+    # Python's own numbers: the same bits as NumPy's in half the time.
+    alpha, placed = float(alpha), [(float(x), float(y)) for x, y in discs]
     sides: list[Side] = [None, None, None]
     heard, later, delay = changes or (instruction, instruction, 0)
     countdown, run, best, stretch = None, 0.0, 0.0, 0.0
@@ -122,14 +123,18 @@ def controller(genotype: ArrayLike, readings: Readings) -> Callable[[Sequence[fl
     def sensory_neuron(value: float) -> float:
         return sigmoid(gain * value + input_bias)  # eq. 1
 
-    def think(inputs: Sequence[float]) -> tuple[float, float]:
+    @cache  # what is sensed is often what was sensed before
+    def drive(inputs: tuple[float, ...], j: int) -> float:
         s = [sensory_neuron(value) for value in inputs]
+        touch, bend, words = (_dot(sensory, s, j, group) for group in (TOUCH, BEND, WORDS))
+        right, middle, left = (_dot(sensory, s, j, sector) for sector in SECTORS)
+        return words + touch + (right + middle + left) + bend
+
+    def think(inputs: Sequence[float]) -> tuple[float, float]:
+        felt = tuple(inputs)
         z = [sigmoid(y[k] + bias[k]) for k in inter]
         for j in inter:
-            touch, bend, words = (_dot(sensory, s, j, group) for group in (TOUCH, BEND, WORDS))
-            right, middle, left = (_dot(sensory, s, j, sector) for sector in SECTORS)
-            drive = words + touch + (right + middle + left) + bend
-            y[j] += c.DT / tau[j] * (drive + _dot(recurrent, z, j, inter) - y[j])  # eq. 2
+            y[j] += c.DT / tau[j] * (drive(felt, j) + _dot(recurrent, z, j, inter) - y[j])  # eq. 2
         z = [sigmoid(y[k] + bias[k]) for k in inter]
         f = [sigmoid(_dot(motor, z, m, inter) + motor_bias) for m in range(c.N_MOTORS)]  # eq. 3
         return _turn(f[0], f[1], readings.turn_size), _turn(f[2], f[3], readings.turn_size)

@@ -9,6 +9,8 @@ from collections.abc import Callable
 from io import TextIOWrapper
 from typing import Final, TextIO
 
+from evolution.unloadable import unloadable
+
 BAD_INPUT: Final = 2
 INTERRUPTED: Final = 130
 BROKEN_PIPE: Final = 141
@@ -29,16 +31,16 @@ def answer(run: Callable[[], int]) -> int:
         sys.stdout.reconfigure(errors="replace")
     try:
         return _written_out(run)
-    except (ValueError, OSError) as error:
+    except Exception as error:
         if isinstance(error, BrokenPipeError) and _is_closed(error):
             _say("nobody reads the output any more, so the command ended; repeat it to go on")
             _give_up(sys.stdout)
             return BROKEN_PIPE
-        _say(_sentence(error))
+        told = unloadable(error) or _told(error)
+        if told is None:  # a mistake of ours
+            raise
+        _say(_on_one_line(told))
         _give_up_unwritten()
-        return BAD_INPUT
-    except MemoryError:
-        _say("the memory does not suffice; ask for less at once")
         return BAD_INPUT
     except KeyboardInterrupt:
         _say("stopped by Ctrl-C")
@@ -113,12 +115,17 @@ def _give_up(stream: TextIO) -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
-def _sentence(error: ValueError | OSError) -> str:
-    """What an error says, on one line, with the file a system call failed on."""
-    text = str(error)
+def _told(error: Exception) -> str | None:
+    """What an error says, with the file a system call failed on; None if it was not raised for a user."""
+    if isinstance(error, MemoryError):
+        return "the memory does not suffice; ask for less at once"
     if isinstance(error, OSError) and error.filename:
-        text = f"{error.filename}: {error.strerror}"
-    # Whatever a file or a flag holds must neither steer the terminal nor fill it.
+        return f"{error.filename}: {error.strerror}"
+    return str(error) if isinstance(error, ValueError | OSError) else None
+
+
+def _on_one_line(text: str) -> str:
+    """A text of which nothing steers the terminal or fills it, whatever a file or a flag holds."""
     line = "".join(each if each.isprintable() else "?" for each in " ".join(text.split()))
     if len(line) <= LONGEST_SENTENCE:
         return line

@@ -7,6 +7,7 @@ answered by one sentence on stderr and exit code 2.
 from __future__ import annotations
 
 import os
+import re
 import sys
 import warnings
 from collections.abc import Sequence
@@ -99,6 +100,10 @@ def _main(arguments: Sequence[str]) -> int:
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
     # A notebook's back end may not exist here, a number be 0: nothing is shown, no kernel has threads.
     os.environ.update(MPLBACKEND="agg", NUMBA_NUM_THREADS="1")
+    # A terminal of no columns would be shown none; NumPy does not load with a date that is no number.
+    for name in ("COLUMNS", "SOURCE_DATE_EPOCH"):
+        if not re.fullmatch("[1-9][0-9]*", os.environ.get(name, "1")):
+            del os.environ[name]
     if not arguments:
         print(overview(), file=sys.stderr)
         return BAD_INPUT

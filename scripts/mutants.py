@@ -3,9 +3,9 @@
     python -m scripts.mutants --number 200 --seed 1 --output mutants.csv
 
 A random sample of all faults (`scripts.faults`) of the modules below is tried in copies of the tree,
-each with the tests that concern its module; the tree itself is not touched. What was tried stands in the
-output and is not tried again. A fault with which a test does not end is noticed, and so is one with
-which nothing can be imported.
+each with the tests that concern its module: those of its name first, the slow ones only if no other
+notices it. The tree itself is not touched. What was tried stands in the output and is not tried again.
+A fault with which a test does not end is noticed, and so is one with which nothing can be imported.
 
 Two programs that do the like were tried. mutmut (3.8) leaves constants and decorated functions alone: in
 the solver, whose functions are all compiled, it finds no fault to put in. cosmic-ray (8.7) rewrites the
@@ -30,8 +30,8 @@ from scripts.trying_faults import ROOT, Attempts, Copy, Mutant, Row, row_of
 
 # Which tests concern which modules, the quickest first; the first pattern that fits counts.
 KERNEL: Final = (
-    "tests/arm2d/test_arithmetic.py",
     "tests/arm2d/test_world.py",
+    "tests/arm2d/test_arithmetic.py",
     "tests/evolution/runs/test_golden.py",
     "tests/arm2d/test_kernel.py",
     "tests/arm2d/test_camera_at_end.py",
@@ -46,7 +46,9 @@ TESTS: Final[dict[str, tuple[str, ...]]] = {
     "arm2d/arithmetic.py": KERNEL,
     "arm2d/constants.py": KERNEL,
     "arm2d/geometry.py": KERNEL,
-    "arm2d/reference.py": KERNEL,
+    "arm2d/reference.py": ("tests/arm2d/test_kernel.py", *KERNEL),
+    "arm2d/kernel/camera_at_end.py": ("tests/arm2d/test_camera_at_end.py", *KERNEL),
+    "arm2d/kernel/stepping.py": ("tests/arm2d/worlds/test_stepping.py", *KERNEL),
     "arm2d/kernel/*.py": KERNEL,
     "arm2d/trials.py": (
         "tests/arm2d/test_trials.py",
@@ -94,8 +96,10 @@ def all_mutants() -> list[Mutant]:
 
 
 def witnesses_of(path: str) -> tuple[str, ...]:
-    """The tests that concern a module."""
-    return next(tests for pattern, tests in TESTS.items() if Path(path).match(pattern))
+    """The tests that concern a module; those that have its name come first."""
+    tests = next(tests for pattern, tests in TESTS.items() if Path(path).match(pattern))
+    own = f"tests/{Path(path).parent}/test_{Path(path).stem}.py"
+    return (own, *(test for test in tests if test != own)) if (ROOT / own).exists() else tests
 
 
 def summary(rows: list[Row]) -> str:

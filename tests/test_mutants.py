@@ -67,8 +67,12 @@ def test_faults_are_those_of_arithmetic_of_logic_and_of_what_is_left_out():
     }  # fmt: skip
 
 
-def test_every_fault_of_every_module_is_python():
-    found = all_mutants()
+@pytest.fixture(scope="module")
+def found():
+    return all_mutants()
+
+
+def test_every_fault_of_every_module_is_python(found):
     assert len(found) > 5000
     assert len({each.row.what for each in found}) == len(found)
     for each in found[::40]:
@@ -76,8 +80,8 @@ def test_every_fault_of_every_module_is_python():
         assert each.row.before != each.row.after
 
 
-def test_tests_of_every_module_exist():
-    for test in {test for each in all_mutants() for test in each.tests}:
+def test_tests_of_every_module_exist(found):
+    for test in {test for each in found for test in each.tests}:
         assert (ROOT / test).exists(), test
 
 

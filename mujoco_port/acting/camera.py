@@ -10,7 +10,10 @@ Import only after `mujoco_port.film.gl.choose_back_end`.
 
 from __future__ import annotations
 
+import atexit
+from functools import cache
 from typing import Final
+from weakref import WeakSet
 
 import mujoco
 import numpy as np
@@ -36,6 +39,16 @@ GEOM: Final = int(mujoco.mjtObj.mjOBJ_GEOM)  # as an enum it would be compared p
 BEHIND: Final = (0.0, -CHORD_END_DISTANCE)  # [cm], where an object is taken to be that is not seen
 
 
+# Of eyes that nobody closes. MuJoCo ends its display when Python ends, and complains of what is left.
+_open: Final[WeakSet[CameraEyes]] = WeakSet()
+
+
+@cache
+def _close_at_exit() -> None:
+    """Close them then, before MuJoCo does, which has asked for its turn when the first of them was opened."""
+    atexit.register(lambda: [eyes.close() for eyes in tuple(_open)])
+
+
 class CameraEyes:
     """What a camera sees; call it with alpha in [deg]. Use it in a `with` statement, or call `close`.
 
@@ -47,6 +60,8 @@ class CameraEyes:
     def __init__(self, body: Body, readings: Readings | None = None) -> None:
         self._body, self._readings = body, readings or Readings()
         self._renderer = mujoco.Renderer(body.model, HEIGHT_PX, WIDTH_PX)
+        _open.add(self)
+        _close_at_exit()
         self._renderer.enable_segmentation_rendering()
         self._shown = mujoco.MjvOption()
         self._shown.geomgroup[list(COVERS)] = 0

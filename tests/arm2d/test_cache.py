@@ -8,12 +8,14 @@ import stat
 import subprocess
 import sys
 import tempfile
+import warnings
 from pathlib import Path
 
 import pytest
 
 from arm2d import compiling
 from arm2d.cache import CacheWarning, cache_folder, damaged_files, find_place, lack_of_room, sealed, unsealed
+from arm2d.compiling import _SealedFile, _tell_once
 
 AS_ROOT = pytest.mark.skipif(os.geteuid() != 0, reason="only root can take another user's part")
 SOMEBODY = 54321
@@ -233,6 +235,34 @@ def test_a_folder_that_is_taken_away_costs_the_cache_only(fresh):
     folder.unlink()
     folder.mkdir()
     assert not found(load())
+
+
+def test_code_compiled_elsewhere_at_the_same_time_is_not_taken_for_ours(tmp_path):
+    class Elsewhere(_SealedFile):
+        """Of a machine that looked into the index before we wrote ours, which replaced the one it wrote."""
+
+        def _load_index(self):
+            return {}
+
+        def _save_index(self, overloads):
+            pass
+
+    ours, theirs = _SealedFile(str(tmp_path), "f", "stamp"), Elsewhere(str(tmp_path), "f", "stamp")
+    ours.save("this processor", "our code")
+    assert ours.load("this processor") == "our code"
+    theirs.save("another processor", "their code")
+    assert len(list(tmp_path.glob("*.nbc"))) == 1
+    assert ours.load("this processor") is None
+    ours.save("this processor", "our code")
+    assert ours.load("this processor") == "our code"
+
+
+def test_what_cannot_be_kept_is_told_once(tmp_path):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")  # while Numba compiles, Python forgets what it has told
+        for _ in range(3):
+            _tell_once(f"{tmp_path} is full")
+    assert [each.category for each in told] == [CacheWarning]
 
 
 @AS_ROOT

@@ -1,8 +1,5 @@
 """The compiled kernel against the plain reference, and its promises: same bits, no influence."""
 
-import os
-import subprocess
-import sys
 from dataclasses import fields
 
 import numpy as np
@@ -49,8 +46,9 @@ TRIALS_PER_ALTERNATIVE = -(-20_000 // len(ALTERNATIVES))
 
 
 def genotypes_of(evolved, n, rng):
-    """Half random, half evolved genotypes, [n, 84]."""
-    return np.concatenate([rng.random((n - n // 2, 84)), evolved[rng.choice(len(evolved), n // 2)]])
+    """A quarter random, the rest evolved genotypes, [n, 84]: what is random seldom touches anything."""
+    random = rng.random((-(-n // 4), 84))
+    return np.concatenate([random, evolved[rng.choice(len(evolved), n - len(random))]])
 
 
 def disagreements(genotypes, trials, readings):
@@ -176,24 +174,6 @@ def test_recording_a_trial_gives_the_scores_of_running_it(population):
         record = record_trial(genotypes[p], trials[t])
         assert record.fitness == scores.fitness[p, t]
         assert record.steps == scores.steps[p, t] == len(record.alpha) - 1
-
-
-def test_kernel_compiled_for_the_oldest_x86_64_gives_the_same_bits(population):
-    script = (
-        "import sys, numpy as np; from arm2d import *\n"
-        "rng = np.random.default_rng(3)\n"
-        "trials = draw_trials(Condition.WITH_IGNORE.instructions, 2, Readings(), rng)\n"
-        "scores = run_trials(rng.random((20, 84)), trials)\n"
-        "sys.stdout.buffer.write(scores.fitness.tobytes() + scores.steps.tobytes())\n"
-    )
-    outputs = [
-        subprocess.run(
-            [sys.executable, "-c", script], env={**os.environ, **cpu}, check=True, capture_output=True
-        ).stdout
-        for cpu in ({}, {"NUMBA_CPU_NAME": "x86-64", "NUMBA_CPU_FEATURES": ""})
-    ]
-    assert len(outputs[0]) == 16 * 20 * 36
-    assert outputs[0] == outputs[1]
 
 
 def test_discs_are_never_left_inside_s2_and_move_only_where_s2_passes(population):

@@ -2,6 +2,7 @@
 
 from dataclasses import fields
 
+import numpy as np
 import pytest
 
 from arm2d import Readings
@@ -91,6 +92,29 @@ def test_every_choice_between_words_names_its_default_first():
 def test_unsound_reading_is_refused_with_what_would_be_right(values, message):
     with pytest.raises(ValueError, match=message):
         Readings.from_mapping(values)
+
+
+@pytest.mark.parametrize(
+    ("name", "low", "high"),
+    [
+        ("mutation_probability", 0.0, 1.0),
+        ("mutation_sd", 0.0, 1.0),
+        ("crossover", 0.0, 1.0),
+        ("tau_exponent_max", -1.0, 3.0),
+        ("object_radius", 0.1, 11.8),
+        ("sector_half_width", 0.1, 30.0),
+        ("start_half_width", 0.0, 30.0),
+    ],
+)
+def test_a_bound_is_allowed_and_what_lies_just_beyond_it_is_not(name, low, high):
+    for bound, beyond in ((low, -np.inf), (high, np.inf)):
+        assert getattr(Readings(**{name: bound}), name) == bound
+        with pytest.raises(ValueError, match=rf"reading {name} = .* must lie in \[{low:g}, {high:g}\]"):
+            Readings(**{name: float(np.nextafter(bound, beyond))})
+
+
+def test_centres_given_as_a_list_can_be_compared_and_counted():
+    assert {Readings(sector_centres=[30.0, 90.0, 150.0])} == {Readings()}
 
 
 def test_unknown_preset_lists_the_known_ones():

@@ -38,22 +38,59 @@ def evaluated(tmp_path_factory):
 @pytest.mark.parametrize(
     "environment",
     [
-        {"MPLBACKEND": "module://matplotlib_inline.backend_inline"},
-        {"MPLBACKEND": "TkAgg"},
-        {"NUMBA_NUM_THREADS": "0"},
-        {"NUMBA_NUM_THREADS": "many"},
-        {"OMP_NUM_THREADS": "none", "OPENBLAS_NUM_THREADS": "-1"},
-        {"PYTHONOPTIMIZE": "2"},
-        {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"},
-        {"PYTHONWARNINGS": "error"},
-        {"TERM": "dumb", "COLUMNS": "0"},
+        {
+            "MPLBACKEND": "module://matplotlib_inline.backend_inline",
+            "NUMBA_NUM_THREADS": "0",
+            "OMP_NUM_THREADS": "none",
+            "OPENBLAS_NUM_THREADS": "-1",
+            "SOURCE_DATE_EPOCH": "yesterday",
+            "TERM": "dumb",
+            "COLUMNS": "0",
+        },
+        {
+            "MPLBACKEND": "TkAgg",
+            "NUMBA_NUM_THREADS": "many",
+            "PYTHONWARNINGS": "error",
+            "LC_ALL": "C",
+            "PYTHONUTF8": "0",
+            "PYTHONCOERCECLOCALE": "0",
+        },
     ],
-    ids=str,
+    ids=["back end, none", "window, many"],
 )
-def test_a_variable_of_the_shell_changes_nothing(environment, evaluated, tmp_path):
+def test_variables_of_the_shell_change_nothing(environment, evaluated, tmp_path):
+    """Several at a time, since a command takes seconds; whoever breaks this asks for them one by one."""
     done = run([*EVALUATE, "--output=out"], tmp_path, **environment)
     assert done.returncode == 0, done.stderr
     assert contents(tmp_path / "out") == evaluated
+    assert "never met" in done.stdout  # below the table, which a screen of no columns would swallow
+
+
+def test_without_docstrings_and_assertions_a_report_is_written(finished_run, tmp_path):
+    """Not evaluated: everything would be compiled once more."""
+    done = run([*WORDARM, "report", str(finished_run), "--output=x.html"], tmp_path, PYTHONOPTIMIZE="2")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "230 of 230" in (tmp_path / "x.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("columns", ["0", "", "none", "-3"])
+def test_a_terminal_without_columns_is_shown_everything(columns, finished_run):
+    done = run([*WORDARM, "status", str(finished_run)], finished_run, COLUMNS=columns)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "230 of 230" in done.stdout
+
+
+def test_a_librarys_damaged_settings_are_told_in_one_sentence(tmp_path):
+    (tmp_path / ".numba_config.yaml").write_text("{: damaged")
+    done = run([*EVALUATE, "--output=out"], tmp_path)
+    assert (done.returncode, done.stdout) == (BAD_INPUT, "")
+    assert done.stderr.startswith("wordarm: numba cannot be loaded (ParserError: ")
+    assert done.stderr.endswith(
+        'in ".numba_config.yaml", line 1, column 2); look at its settings: NUMBA_... in the environment, '
+        "a file in the current folder; `wordarm doctor` tries it by itself\n"
+    )
+    assert done.stderr.count("\n") == 1
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_style_of_the_users_changes_no_figure(evaluated, tmp_path):
@@ -87,14 +124,14 @@ def test_a_name_that_is_too_long_is_refused_with_the_reason(tmp_path):
         assert len(done.stderr) < 1100
 
 
-@pytest.mark.parametrize("back_end", ["nonsense", "osmesa"])
-def test_what_draws_nothing_does_not_care_for_the_back_end(back_end, tmp_path):
-    done = run([*WORDARM, "workspace", "--step-deg=90"], tmp_path, MUJOCO_GL=back_end)
+def test_what_draws_nothing_does_not_care_for_the_back_end(tmp_path):
+    done = run([*WORDARM, "workspace", "--step-deg=90"], tmp_path, MUJOCO_GL="nonsense")
     assert "Traceback" not in done.stderr
     assert (tmp_path / "workspace-icub.png").exists(), done.stderr
 
 
-def test_a_back_end_is_left_alone_only_as_long_as_nothing_draws(tmp_path):
+@pytest.mark.parametrize("back_end", ["nonsense", "osmesa"])
+def test_a_back_end_is_left_alone_only_as_long_as_nothing_draws(back_end, tmp_path):
     code = (
         "import os, subprocess, sys\n"
         "from mujoco_port.film.gl import without_drawing\n"
@@ -103,8 +140,8 @@ def test_a_back_end_is_left_alone_only_as_long_as_nothing_draws(tmp_path):
         "    print(subprocess.run([sys.executable, '-c', 'import mujoco']).returncode)\n"
         "print(os.environ['MUJOCO_GL'])\n"
     )
-    done = run([sys.executable, "-c", code], tmp_path, MUJOCO_GL="nonsense")
-    assert done.stdout.split() == ["0", "nonsense"], done.stderr
+    done = run([sys.executable, "-c", code], tmp_path, MUJOCO_GL=back_end)
+    assert done.stdout.split() == ["0", back_end], done.stderr
 
 
 @pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])

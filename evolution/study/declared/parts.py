@@ -40,13 +40,19 @@ class DeclaredPart:
 
 
 @cache
+def _factorial_worlds() -> tuple[Readings, ...]:
+    """The declared draw, which takes a second."""
+    return balanced_worlds(WORLDS, DESIGN_SEED)
+
+
+@cache
 def factorial(generations: int = GENERATIONS) -> DeclaredPart:
     """300 worlds With-Indicate; the first 150 of them, with the same seeds, With-Ignore as well.
 
     World after world, so that the runs done at any time are a study by themselves.
     """
     settings = Settings(generations=generations)
-    worlds = balanced_worlds(WORLDS, DESIGN_SEED)
+    worlds = _factorial_worlds()
     configs = [
         RunConfig(condition, FIRST_SEED + number, settings, world)
         for number, world in enumerate(worlds)

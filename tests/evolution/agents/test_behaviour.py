@@ -17,6 +17,7 @@ from evolution.agents.variance import events_of, shares_by_event
 from evolution.cli import main
 from evolution.figures.behaviour import trajectories_figure
 from evolution.figures.neurons import activity_figure, variance_figure
+from evolution.figures.page import LARGEST_DRAWING
 from evolution.figures.states import principal_plane, state_space_figure
 from evolution.runs.storage import read_arrays
 
@@ -116,7 +117,7 @@ def test_events_are_start_sight_and_touch(behaviour):
 
 
 def test_command_writes_figures_and_arrays(finished_run, tmp_path, capsys):
-    flags = ["--generation=229", "--trials-per-area=1", f"--output={tmp_path}"]
+    flags = ["--generation=229", "--trials-per-area=5", f"--output={tmp_path}"]
     assert main(["behaviour", str(finished_run), *flags]) == 0
     written = sorted(each.name for each in tmp_path.iterdir())
     kinds = ("activity", "lesions", "state-space", "trajectories", "variance")
@@ -127,8 +128,9 @@ def test_command_writes_figures_and_arrays(finished_run, tmp_path, capsys):
     output = capsys.readouterr().out
     assert all(name in output for name in written)
     arrays = read_arrays(tmp_path / "generation-000229-rank-0-behaviour.npz")
-    assert arrays["activity"].shape == (18, 251, 3)
+    assert arrays["activity"].shape == (90, 251, 3)
     assert arrays["lesioned"].shape == (1, 8, 9)
+    assert max(path.stat().st_size for path in tmp_path.glob("*.svg")) <= LARGEST_DRAWING
 
 
 def test_command_answers_bad_input_with_one_sentence(finished_run, capsys):

@@ -7,6 +7,7 @@ from evolution.agents.lineage import ancestor_indices, trace_lineage
 from evolution.agents.lineage_scores import Skills, longest_bent_stay, offsets, score_lineage
 from evolution.cli import main
 from evolution.figures.lineage import lineage_figure
+from evolution.figures.page import LARGEST_DRAWING
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.replay import population_at
@@ -197,12 +198,13 @@ def test_arrays_hold_the_line_and_its_scores(lineage, scores):
 
 
 def test_command_writes_figure_and_arrays(finished_run, tmp_path, capsys):
-    flags = ["--generation=30", "--rank=1", "--trials-per-area=1", f"--output={tmp_path}"]
+    flags = ["--generation=60", "--rank=1", "--trials-per-area=1", f"--output={tmp_path}"]
     assert main(["lineage", str(finished_run), *flags]) == 0
-    names = [f"generation-000030-rank-1.{suffix}" for suffix in ("npz", "png", "svg")]
+    names = [f"generation-000060-rank-1.{suffix}" for suffix in ("npz", "png", "svg")]
     assert sorted(each.name for each in tmp_path.iterdir()) == names
     assert str(tmp_path / names[0]) in capsys.readouterr().out
-    assert str(read_arrays(tmp_path / names[0])["origin"]) == "with-indicate, seed 11, generation 30, rank 1"
+    assert (tmp_path / names[2]).stat().st_size <= LARGEST_DRAWING
+    assert str(read_arrays(tmp_path / names[0])["origin"]) == "with-indicate, seed 11, generation 60, rank 1"
 
 
 def test_command_answers_bad_input_with_one_sentence(finished_run, capsys):

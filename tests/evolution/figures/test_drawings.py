@@ -2,7 +2,6 @@
 
 import io
 import re
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +11,6 @@ from matplotlib.image import imread
 
 from arm2d import Condition
 from evolution.agents.lineage_scores import LineageScores, Skills
-from evolution.cli import main
 from evolution.figures.lineage import lineage_figure
 from evolution.figures.page import LARGEST_DRAWING, png_bytes, shortened, svg_bytes
 
@@ -63,15 +61,6 @@ def test_a_figure_that_is_small_is_drawn_without_pixels():
 def test_digits_no_eye_can_tell_are_dropped_in_paths_only():
     before = b'<svg><path d="M 1.234567 2.3"/><use transform="scale(0.015625)"/></svg>'
     assert shortened(before) == b'<svg><path d="M 1.23 2.3"/><use transform="scale(0.015625)"/></svg>'
-
-
-def test_every_drawing_the_commands_make_is_small(finished_run, tmp_path):
-    run = shutil.copytree(finished_run, tmp_path / "run")
-    assert main(["lineage", str(run), "--generation=60", "--trials-per-area=1"]) == 0
-    assert main(["behaviour", str(run), "--generation=229", "--trials-per-area=5"]) == 0
-    drawings = sorted(run.rglob("*.svg"))
-    assert len(drawings) == 6
-    assert {each.name: each.stat().st_size for each in drawings if each.stat().st_size > LIMIT} == {}
 
 
 def test_every_drawing_in_the_docs_is_small():

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
 
 from arm2d import Condition
 from evolution.agents.transitions import action_transitions, object_transitions
-from evolution.figures.generalisers import generalisers_figure
+from evolution.figures.generalisers import draw_density, generalisers_figure
 from evolution.figures.page import CLASS_COLOURS, QUIET
 from evolution.figures.paper import all_figures, fitness_figure, table_figure, transitions_figure
 from evolution.figures.run import running_median
@@ -109,6 +110,21 @@ def test_generalisers_stand_at_their_generations_in_the_row_of_their_run(experim
             full, partial, _ = (found.members[kind][run] for kind in found.members)
             expected = f"{full} fully, {partial} partially" if full or partial else "none"
             assert notes[round(places[str(seed)], 6)] == expected
+
+
+def test_partial_agents_are_dark_in_the_lane_of_their_rank_and_in_the_cell_of_their_generations():
+    generations = np.arange(100, 112)
+    members = np.zeros((12, 5), bool)
+    members[5:10, 1] = True
+    members[[0, 2], 4] = True
+    axes = Figure().add_subplot()
+    draw_density(axes, generations, members, top=-0.1, bottom=-0.6)
+    (image,) = axes.images
+    shares = np.zeros((5, 3))
+    shares[1, 1], shares[4, 0] = 1.0, 0.4
+    np.testing.assert_allclose(np.asarray(image.get_array())[..., 3], 0.75 * shares)
+    assert tuple(image.get_extent()) == (100, 115, -0.6, -0.1)
+    assert image.origin == "upper"  # the best rank on top
 
 
 def test_all_four_figures_of_the_paper_are_drawn_for_one_condition_too(experiment):

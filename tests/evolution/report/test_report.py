@@ -135,34 +135,39 @@ def rows_below(text, heads):
     return [table[table.index(heads) + 1 :] for table in tables_of(text) if heads in table]
 
 
-def test_runs_and_tests_stand_under_their_names(results, experiment):
-    unequal = {
+@pytest.fixture(scope="module")
+def unequal(results, experiment):
+    """Results whose numbers all differ, and their page."""
+    comparisons = {
         name: Comparison((0.1, 0.2), 0.3 + place / 10, (0.4, 0.5), 0.06, 0.07, 0.8)
         for place, name in enumerate(results.comparisons)
     }
-    compared = replace(results, comparisons=unequal)
-    text = render(compared, experiment)
-    for table in (shown_runs(compared), shown_tests(compared)):
+    conditions = {
+        condition: replace(own, counts=np.arange(44).reshape(11, 4) + 10_000 + 100 * place)
+        for place, (condition, own) in enumerate(results.conditions.items())
+    }
+    changed = replace(results, comparisons=comparisons, conditions=conditions)
+    return changed, render(changed, experiment)
+
+
+def test_runs_and_tests_stand_under_their_names(unequal):
+    changed, text = unequal
+    for table in (shown_runs(changed), shown_tests(changed)):
         (rows,) = rows_below(text, list(table.columns))
         assert rows == [list(row.values()) for row in table.rows()]
         assert len(rows) >= 4
 
 
-def test_the_papers_numbers_and_ours_stand_under_their_heads(results, experiment):
-    found = {
-        condition: replace(own, counts=np.arange(44).reshape(11, 4) + 10_000 + 100 * place)
-        for place, (condition, own) in enumerate(results.conditions.items())
-    }
-    unequal = replace(results, conditions=found)
-    text = render(unequal, experiment)
+def test_the_papers_numbers_and_ours_stand_under_their_heads(unequal):
+    changed, text = unequal
     (main,) = rows_below(text, ["", "paper", "ours", "paper", "ours"])
     expected = [
-        [line.what, *(words for pair in line.pairs for words in pair)] for line in main_lines(unequal)
+        [line.what, *(words for pair in line.pairs for words in pair)] for line in main_lines(changed)
     ]
     assert main == expected
     categories = rows_below(text, ["category", *["paper", "ours"] * 4])
     assert len(categories) == 2
-    for rows, (condition, own) in zip(categories, found.items(), strict=True):
+    for rows, (condition, own) in zip(categories, changed.conditions.items(), strict=True):
         both = np.stack([published.TABLE_II[condition], own.counts], axis=-1).reshape(11, 8)
         assert [row[1:] for row in rows] == [[f"{n:,}" for n in row] for row in both]
 
@@ -248,19 +253,32 @@ def test_an_experiment_without_any_result_is_a_page_too(finished_run, tmp_path):
     assert "with-indicate, seed 11 230 of 230" in page.text
 
 
-def test_films_beside_the_runs_are_linked(results, experiment):
+@pytest.fixture(scope="module")
+def furnished(results, experiment):
+    """The page of an experiment with a film beside a run, and a drawing of its best agent's ancestors."""
     film = experiment / "with-ignore" / "seed-0001" / "videos" / "champion-touch-green.mp4"
     film.parent.mkdir()
     film.touch()
     for leftover in (".champion-touch-green.unfinished.mp4", ".champion-touch-green.mp4.0a1b2c3d.unfinished"):
         (film.parent / leftover).touch()  # of a process that was killed
+    agent = best_agent(results.conditions[Condition.WITH_INDICATE])
+    drawings = agent.run.path / "lineage"
+    drawings.mkdir()
+    stem = f"generation-{agent.generation:06d}-rank-{agent.rank}"
+    (drawings / f"{stem}.svg").write_text("<svg/>")
+    (drawings / "generation-000000-rank-0.svg").write_text("<svg/>")  # another agent's
     text = render(results, experiment.parent)
     shutil.rmtree(film.parent)
+    shutil.rmtree(drawings)
+    return text
+
+
+def test_films_beside_the_runs_are_linked(furnished, experiment):
     place = f"./{quote(experiment.name)}/with-ignore/seed-0001/videos/champion-touch-green.mp4"
-    elements = Page(text).elements
+    elements = Page(furnished).elements
     assert [a["href"] for tag, a in elements if tag == "a" and "mp4" in a["href"]] == [place]
     assert [a["src"] for tag, a in elements if tag == "video"] == [place]
-    assert "no film beside these runs" not in Page(text).text
+    assert "no film beside these runs" not in Page(furnished).text
 
 
 def test_without_films_the_commands_that_make_them_are_told(text, results):
@@ -275,16 +293,8 @@ def test_without_films_the_commands_that_make_them_are_told(text, results):
             assert command in words
 
 
-def test_figures_drawn_for_the_best_agent_are_taken_along(results, experiment):
-    agent = best_agent(results.conditions[Condition.WITH_INDICATE])
-    folder = agent.run.path / "lineage"
-    folder.mkdir()
-    stem = f"generation-{agent.generation:06d}-rank-{agent.rank}"
-    (folder / f"{stem}.svg").write_text("<svg/>")
-    (folder / "generation-000000-rank-0.svg").write_text("<svg/>")  # another agent's
-    text = render(results, experiment)
-    shutil.rmtree(folder)
-    assert text.count('alt="Its line of ancestors"') == 1
+def test_figures_drawn_for_the_best_agent_are_taken_along(furnished):
+    assert furnished.count('alt="Its line of ancestors"') == 1
 
 
 def test_a_drawing_is_shortened_where_no_eye_can_tell_and_replaced_where_it_is_huge(tmp_path):

@@ -9,7 +9,7 @@ import pytest
 from arm2d import Condition
 from evolution.agents.subtasks import AgentClass
 from evolution.report.columns import PlainTable
-from evolution.report.comparison import key_number_table
+from evolution.report.comparison import comparison_table, key_number_table
 from evolution.report.rows import (
     generaliser_table,
     genotype_table,
@@ -208,3 +208,26 @@ def test_experiments_side_by_side_have_their_own_columns(experiment):
     assert float(row["published"]) == pytest.approx(0.01195, abs=5e-5)
     alone = rows[INDICATE, "plateau"]
     assert [alone[f"b{part}"] for part in ("", ", of", ", lowest run", ", highest run")] == [""] * 4
+
+
+def test_the_terminal_shows_the_numbers_of_the_table(experiment):
+    condition = Condition.WITH_IGNORE
+    other = results({condition: condition_results(condition, random_successes(condition, n_runs=2, seed=9))})
+    found = {"a": experiment, "b": other}
+    table = comparison_table(found)
+    assert [column.header for column in table.columns] == ["condition", "number", "published", "a", "b"]
+    shown = list(zip(*(column.cells for column in table.columns), strict=True))
+    stored = rows_of(key_number_table(found))
+    assert len(shown) == len(stored) > 30
+    for cells, row in zip(shown, stored, strict=True):
+        assert cells[:2] == (TITLES[Condition(row["condition"])], row["number"])
+        for cell, name in zip(cells[2:], ("published", "a", "b"), strict=True):
+            if not row[name]:
+                assert cell == "-"
+            elif cell.endswith("%"):
+                assert float(cell.removesuffix(" %")) == pytest.approx(100 * float(row[name]), abs=0.06)
+            elif " of " in cell:
+                n = published.RUNS if name == "published" else int(row[f"{name}, of"])
+                assert cell == f"{float(row[name]):.0f} of {n}"
+            else:
+                assert float(cell) == pytest.approx(float(row[name]), abs=6e-4)

@@ -121,3 +121,16 @@ def test_a_pool_forked_after_something_was_drawn_is_refused_and_a_spawned_one_dr
     with multiprocessing.get_context("spawn").Pool(1) as pool:
         pool.apply_async(_draw, (record, path)).get(timeout=120)
     assert path.read_bytes() == drawn
+
+
+def test_eyes_that_nobody_closes_are_closed_when_python_ends():
+    code = (
+        "from mujoco_port.film.gl import choose_back_end; choose_back_end()\n"
+        "from models.robots import get_robot\n"
+        "from mujoco_port.acting.camera import CameraEyes\n"
+        "from mujoco_port.acting.control import Body\n"
+        "eyes = CameraEyes(Body(get_robot('icub')))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "Exception ignored" not in done.stderr

@@ -104,6 +104,19 @@ def test_winner_is_the_nearest_and_beats_the_printed_readings(spread):
     assert "beats the printed readings: it is to be the default" in found.sentence
 
 
+def test_two_runs_of_every_world_and_condition_are_needed(spread):
+    runs = made_fresh({"b"})
+    two = [run for run in runs if run.config.seed in SEEDS[:2]]
+    assert decide(runs_of_worlds(two, fresh_worlds(CHOSEN)), spread).winner == "b"
+    with pytest.raises(ValueError, match="1 runs of b with-ignore are measured; the verdict needs two"):
+        decide(runs_of_worlds([run for run in two if not is_last_of_b(run)], fresh_worlds(CHOSEN)), spread)
+
+
+def is_last_of_b(run):
+    config = run.config
+    return (config.condition, config.readings, config.seed) == (Condition.WITH_IGNORE, WORLD_B, SEEDS[1])
+
+
 def test_default_stays_where_nothing_is_better(spread):
     found = decided(set(), spread)
     assert found.beats == ()

@@ -4,15 +4,18 @@ import csv
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
+from scipy.stats import chi2
 
 from arm2d import Condition, Readings
 from evolution.cli import main
+from evolution.figures.paper import TITLES
 from evolution.study.declared.factors import FACTORS
 from evolution.study.declared.held_back import check
 from evolution.study.declared.levels_figure import levels_figure
 from evolution.study.declared.nearest import active_factors, distance, nearest_worlds, spreads
 from evolution.study.declared.outcomes import FIGURES, OUTCOMES, PLATEAU, SOLVED, TOP_SHARES
-from evolution.study.declared.regression import N_MAIN, design, fit, level_numbers
+from evolution.study.declared.regression import N_MAIN, SIGNIFICANT, design, fit, level_numbers
 from evolution.study.declared.results import (
     check_table,
     chosen_worlds,
@@ -87,6 +90,17 @@ def test_known_effects_lie_in_their_intervals(plateau, factor, level, true):
 def test_factors_that_do_something_are_told_from_those_that_do_not(plateau):
     found = {FACTORS[i].name for i in np.flatnonzero(plateau.corrected < 0.05)}
     assert found == {"mutation", "parent_scaling", "start_areas"}
+
+
+def test_p_of_a_factor_is_that_of_walds_chi_square(models):
+    """Robust errors have no degrees of freedom: F would give larger p."""
+    model = next(model for own in models.values() for model in own if not model.interactions)
+    first = 1
+    for own, p in zip(FACTORS, model.p, strict=True):
+        levels = slice(first, first := first + len(own.levels) - 1)
+        b = model.coefficients[levels]
+        distance = b @ np.linalg.solve(model.covariance[levels, levels], b)
+        assert p == pytest.approx(chi2.sf(distance, len(b)), rel=1e-6), own.name
 
 
 def test_interaction_that_is_there_enters_and_others_do_not(plateau):
@@ -203,6 +217,36 @@ def test_figure_has_a_row_for_every_level_and_the_published_values(models):
     assert labels[:2] == ["mutation: 0.4 / 0.1", "0.4 / 0.03"]
     dashed = [np.asarray(line.get_xdata())[0] for line in panels[2].lines if line.get_linestyle() == "--"]
     np.testing.assert_allclose(dashed, [60.231, 66.293])
+
+
+def test_every_mean_and_its_interval_stand_in_the_row_of_their_level(models):
+    figure = levels_figure(models, "title")
+    (legend,) = figure.legends
+    colours = {
+        text.get_text(): to_hex(handle.get_color())
+        for text, handle in zip(legend.get_texts(), legend.legend_handles, strict=True)
+    }
+    levels = [(factor, level) for factor, own in enumerate(FACTORS) for level in range(len(own.levels))]
+    for column, axes in enumerate(figure.axes):
+        rows = np.array(figure.axes[0].get_yticks())
+        for condition, own in models.items():
+            model, colour = own[column], colours[TITLES[condition]]
+            scale = 100 if model.outcome.is_share else 1
+            dots = {}
+            for line in axes.lines:
+                if line.get_marker() == "o" and to_hex(line.get_markeredgecolor()) == colour:
+                    filled = to_hex(line.get_markerfacecolor()) == colour
+                    for x, y in line.get_xydata():
+                        dots[int(np.abs(rows - y).argmin())] = x, filled
+            (bars,) = (bar for bar in axes.collections if to_hex(bar.get_color()[0]) == colour)
+            intervals = {int(np.abs(rows - own[0, 1]).argmin()): own[:, 0] for own in bars.get_segments()}
+            assert len(dots) == len(intervals) == 52
+            for row, (factor, level) in enumerate(levels):
+                mean = model.level_mean(factor, level)
+                value, filled = dots[row]
+                assert value == pytest.approx(scale * mean.value)
+                assert filled == (model.corrected[factor] < SIGNIFICANT)
+                assert intervals[row] == pytest.approx([scale * mean.low, scale * mean.high])
 
 
 def test_tables_say_what_the_regressions_say(models, indicate):
