@@ -10,6 +10,8 @@ from io import TextIOWrapper
 from typing import Final, TextIO
 
 BAD_INPUT: Final = 2
+# A process whose device no longer answers: another one can go on with it, or find that it is not there.
+DEVICE_LOST: Final = 3
 INTERRUPTED: Final = 130
 BROKEN_PIPE: Final = 141
 # How the one sentence of an error begins.
