@@ -40,15 +40,17 @@ class Times(NamedTuple):
     median: float
 
 
-def populations(readings: Readings) -> dict[str, NDArray[np.float64]]:
+def populations(
+    readings: Readings, generations: int = GENERATIONS_OF_EVOLVED
+) -> dict[str, NDArray[np.float64]]:
     """A random population [100, 84] and one evolved for a while."""
     settings, rng = Settings(), np.random.default_rng(2)
     random = evolved = initial_genotypes(settings, rng)
-    for _ in range(GENERATIONS_OF_EVOLVED):
+    for _ in range(generations):
         trials = draw_trials(Condition.WITH_INDICATE.experienced, 2, readings, rng)
         fitness = mean_in_order(run_trials(evolved, trials, readings).fitness)
         evolved = breed(evolved, choose_parents(fitness, settings, readings, rng), settings, readings, rng)
-    return {"random": random, f"evolved for {GENERATIONS_OF_EVOLVED} generations": evolved}
+    return {"random": random, f"evolved for {generations} generations": evolved}
 
 
 def contenders(

@@ -12,6 +12,8 @@ from typing import Final, TextIO
 from evolution.unloadable import unloadable
 
 BAD_INPUT: Final = 2
+# A process whose device no longer answers: another one can go on with it, or find that it is not there.
+DEVICE_LOST: Final = 3
 INTERRUPTED: Final = 130
 BROKEN_PIPE: Final = 141
 # How the one sentence of an error begins.

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import run_trials
+from arm2d import Trials, run_trials
 from evolution.agents.postevaluation import POST_EVALUATION
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array, check_range
@@ -59,9 +59,14 @@ def write_solved_trials(folder: RunFolder) -> NDArray[np.int16]:
         ],
         np.int16,
     )
+    keep_solved_trials(folder, solved)
+    return solved
+
+
+def keep_solved_trials(folder: RunFolder, solved: NDArray[np.int16]) -> None:
+    """Keep what was computed."""
     make_folder(file_path(folder).parent)
     folder.write_arrays(file_path(folder), {"solved": solved})
-    return solved
 
 
 def all_solved(folder: RunFolder) -> NDArray[np.bool_]:
@@ -79,8 +84,13 @@ def file_path(folder: RunFolder) -> Path:
     return folder.path / POST_EVALUATION.folder / FILE
 
 
-def _most_carried_out(genotypes: NDArray[np.float64], config: RunConfig, generation: int) -> int:
+def trials_of(config: RunConfig, generation: int) -> Trials:
+    """The trials that a generation was scored in, or its first genotype."""
     rng = generator(config.seed, Purpose.TRIALS, generation)
     condition, per_area = config.condition, config.settings.trials_per_area
-    trials = draw_evolution_trials(condition.experienced, condition, per_area, config.readings, rng)
+    return draw_evolution_trials(condition.experienced, condition, per_area, config.readings, rng)
+
+
+def _most_carried_out(genotypes: NDArray[np.float64], config: RunConfig, generation: int) -> int:
+    trials = trials_of(config, generation)
     return int(run_trials(genotypes, trials, config.readings).success.sum(axis=1).max())

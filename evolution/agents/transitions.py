@@ -27,6 +27,7 @@ from arm2d import (
     ObjectWord,
     Readings,
     Trials,
+    TrialScores,
     draw_trials,
     run_trials,
 )
@@ -129,12 +130,16 @@ def transition_successes(
     transitions: tuple[Transition, ...],
     readings: Readings,
     rng: np.random.Generator,
+    carry_out: Callable[..., TrialScores] = run_trials,
 ) -> NDArray[np.int64]:
-    """Successful trials of 80 of A genotypes in X transitions, [A, X]; all genotypes meet the same trials."""
+    """Successful trials of 80 of A genotypes in X transitions, [A, X]; all genotypes meet the same trials.
+
+    Trials are carried out by `arm2d.run_trials` or its like.
+    """
     if not len(genotypes):
         return np.zeros((0, len(transitions)), np.int64)
     trials = draw_transition_trials(transitions, readings, rng)
-    success = run_trials(genotypes, trials, readings).success
+    success = carry_out(genotypes, trials, readings).success
     return success.reshape(len(genotypes), len(transitions), TRIALS).sum(axis=2)
 
 
@@ -143,8 +148,10 @@ def passes(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
     return np.all(4 * successes > 3 * TRIALS, axis=1)
 
 
-def _test(run: RunFolder, span: range) -> TransitionTest:
-    """The classed agents of some generations; those of a generation meet the same trials."""
+def transition_results(
+    run: RunFolder, span: range, carry_out: Callable[..., TrialScores] = run_trials
+) -> TransitionTest:
+    """The classed agents of some generations, tested; those of a generation meet the same trials."""
     condition, readings = run.config.condition, run.config.readings
     actions, objects = action_transitions(condition), object_transitions(condition)
     evaluated = POST_EVALUATION.read_part(run, span).successes
@@ -155,12 +162,13 @@ def _test(run: RunFolder, span: range) -> TransitionTest:
             classes[members] = index
         ranks = np.flatnonzero(classes >= 0)
         rng = generator(run.config.seed, Purpose.TRANSITIONS, generation)
+        agents = genotypes[ranks]
         test = TransitionTest(
             generations=np.full(len(ranks), generation, np.int32),
             ranks=ranks.astype(np.int8),
             classes=classes[ranks],
-            action=transition_successes(genotypes[ranks], actions, readings, rng).astype(np.int16),
-            object=transition_successes(genotypes[ranks], objects, readings, rng).astype(np.int16),
+            action=transition_successes(agents, actions, readings, rng, carry_out).astype(np.int16),
+            object=transition_successes(agents, objects, readings, rng, carry_out).astype(np.int16),
         )
         tests.append(test)
     return joined(TransitionTest, tests)
@@ -186,7 +194,7 @@ def _check(path: Path, arrays: Mapping[str, NDArray], run: RunFolder, span: rang
         check_range(path, arrays, name, 0, TRIALS)
 
 
-TRANSITION_TEST: Final = LateTest("transitions", TransitionTest, _test, _check)
+TRANSITION_TEST: Final = LateTest("transitions", TransitionTest, transition_results, _check)
 
 
 def run_transition_test(run: RunFolder, report: Callable[[int, int], None] | None = None) -> TransitionTest:

@@ -23,19 +23,22 @@ class PostEvaluate:
     path: Annotated[Positional[Path], arg(metavar="FOLDER")]
     """Run folder, or experiment folder with its runs below it."""
 
+    device: str = "cpu"
+    """What runs the trials: cpu, or cuda for a graphics card by NVIDIA, one of several as cuda:1 (extra gpu).
+    The results are the same, to the bit."""
+
     def run(self) -> int:
         """Post-evaluate every finished run."""
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
         from evolution.agents.parts import late_spans
-        from evolution.agents.postevaluation import post_evaluate
-        from evolution.agents.solving import solved_trials
-        from evolution.agents.transitions import run_transition_test
+        from evolution.experiments.device.late_tests import tests_on
         from evolution.experiments.experiment import open_experiment
         from evolution.experiments.standing import standing_of
         from evolution.runs.lock import locked
 
         columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+        tests = tests_on(self.device)
         experiment, damaged = open_experiment(self.path), []
         with Progress(*columns) as bars:
             for run in experiment.all_runs:
@@ -49,9 +52,9 @@ class PostEvaluate:
                 second = bars.add_task(f"{name}, transitions", total=parts)
                 try:
                     with locked(run.path):
-                        post_evaluate(run, lambda done, _, bar=first: bars.update(bar, completed=done))
-                        run_transition_test(run, lambda done, _, bar=second: bars.update(bar, completed=done))
-                        solved_trials(run)
+                        tests.instructions(run, lambda done, _, bar=first: bars.update(bar, completed=done))
+                        tests.transitions(run, lambda done, _, bar=second: bars.update(bar, completed=done))
+                        tests.solved(run)
                 except ValueError as error:
                     damaged.append(str(error))
         if damaged or experiment.unreadable:

@@ -41,6 +41,10 @@ class ExperimentCommand:
     generations: int | None = None
     """Goes before the file's."""
 
+    device: str = "cpu"
+    """What runs the trials: cpu, or cuda for a graphics card by NVIDIA, one of several as cuda:1 (extra gpu).
+    The results are the same, to the bit."""
+
     dry_run: bool = False
     """List the variants and how long they take, with --slurm also the script of its jobs; start nothing."""
 
@@ -50,6 +54,7 @@ class ExperimentCommand:
         """Evolve; the exit code is 130 if it was stopped, 2 if a run was given up."""
         from rich.console import Console
 
+        from evolution.experiments.device.jobs import device_shares
         from evolution.experiments.plan_runner import plan_lines, processes, run_plan_shown
         from evolution.runs.interrupt import StopRequest
         from evolution.runs.lock import locked
@@ -64,10 +69,11 @@ class ExperimentCommand:
             print("\n".join([*plan_lines(plan, at_once, width), f"{plan.folder}: {_count(plan, spec)}"]))
             return self.cluster.show_script(plan.folder) if self.cluster.slurm else 0
         with self.cluster.opened(plan.folder, console) as elsewhere:
+            shares = device_shares(self.device, spec.jobs, elsewhere.threads() if elsewhere else None)
             make_folder(plan.folder)
             with locked(plan.folder), StopRequest() as stop:
                 at_once_there = elsewhere.threads() if elsewhere else at_once
-                failures = run_plan_shown(plan, at_once_there, stop, console, elsewhere)
+                failures = run_plan_shown(plan, at_once_there, stop, console, elsewhere, shares=shares)
         if stop.requested:
             print("stopped; go on with the same command")
             return INTERRUPTED

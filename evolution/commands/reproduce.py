@@ -42,6 +42,10 @@ class Reproduce(FromPreset):
     jobs: int | None = None
     """Processes at a time. By default as many as there are processors."""
 
+    device: str = "cpu"
+    """What runs the trials: cpu, or cuda for a graphics card by NVIDIA, one of several as cuda:1 (extra gpu).
+    The results are the same, to the bit."""
+
     dry_run: bool = False
     """With --slurm, show the script of its jobs; start nothing."""
 
@@ -68,6 +72,7 @@ class Reproduce(FromPreset):
         """Reproduce; the exit code is 130 if it was stopped, 2 if a job was given up."""
         from rich.console import Console
 
+        from evolution.experiments.device.jobs import device_shares
         from evolution.experiments.plan_runner import processes, run_plan_shown
         from evolution.runs.interrupt import StopRequest
         from evolution.runs.lock import locked
@@ -80,11 +85,12 @@ class Reproduce(FromPreset):
         if self.dry_run:
             return self.cluster.show_script(plan.folder)
         with self.cluster.opened(plan.folder, console) as elsewhere:
+            shares = device_shares(self.device, self.jobs, elsewhere.threads() if elsewhere else None)
             make_folder(plan.folder)
             with locked(plan.folder):
                 with StopRequest() as stop:
                     at_once_there = elsewhere.threads() if elsewhere else at_once
-                    failures = run_plan_shown(plan, at_once_there, stop, console, elsewhere)
+                    failures = run_plan_shown(plan, at_once_there, stop, console, elsewhere, shares=shares)
                     results = None if stop.requested else _analyse(plan.folder)
                     if results and not stop.requested:
                         failures += _look_at_agents(results, plan.folder, at_once, stop)

@@ -12,6 +12,7 @@ from evolution.answers import BAD_INPUT, INTERRUPTED
 
 if TYPE_CHECKING:
     from arm2d import Readings
+    from evolution.experiments.device.jobs import DeviceShares
     from evolution.experiments.jobs import Failure
     from evolution.experiments.plan import Plan
     from evolution.runs.interrupt import StopRequest
@@ -57,6 +58,10 @@ class StudyCommand:
     jobs: int | None = None
     """Processes at a time. By default as many as there are processors."""
 
+    device: str = "cpu"
+    """What runs the trials: cpu, or cuda for a graphics card by NVIDIA, one of several as cuda:1 (extra gpu).
+    The results are the same, to the bit."""
+
     now: bool = False
     """Evolve nothing: tables and pictures of the runs that are measured by now."""
 
@@ -72,6 +77,7 @@ class StudyCommand:
 
     def run(self) -> int:
         """Study; the exit code is 130 if it was stopped, 2 if a run was given up or nothing is measured."""
+        from evolution.experiments.device.jobs import device_shares
         from evolution.experiments.plan_runner import processes
         from evolution.runs.interrupt import StopRequest
         from evolution.runs.lock import locked
@@ -82,13 +88,14 @@ class StudyCommand:
         if self.rows is not None or self.early:
             raise ValueError(f"--rows and --early are for declared parts, which {self.part} is not")
         part, at_once = self._part(), processes(self.jobs)
+        shares = None if self.now else device_shares(self.device, self.jobs)
         plan = _plan(part, self.output)
         failures = ()
         if not self.now:
             plan.check()
             make_folder(plan.folder)
             with locked(plan.folder), StopRequest() as stop:
-                failures = _evolve_and_measure(plan, at_once, stop)
+                failures = _evolve_and_measure(plan, at_once, stop, shares)
                 if stop.requested:
                     print("stopped; go on with the same command")
                     return INTERRUPTED
@@ -99,6 +106,7 @@ class StudyCommand:
 
     def _run_declared(self) -> int:
         """Evolve and measure what has no row yet."""
+        from evolution.experiments.device.jobs import device_shares
         from evolution.experiments.plan_runner import processes
         from evolution.runs.interrupt import StopRequest
         from evolution.study.declared.plan import carry_out
@@ -112,9 +120,11 @@ class StudyCommand:
         study = DeclaredStudy(self.output, generations=self.generations, early=self.early)
         part = study.part(self.part)
         rows, known, failures = study.rows(part), self._known(part), ()
+        shares = None if self.now else device_shares(self.device, self.jobs)
         if not self.now:
             with StopRequest() as stop:
-                failures = carry_out(rows, rows.path.parent, processes(self.jobs), stop, known.values())
+                at_once, folder = processes(self.jobs), rows.path.parent
+                failures = carry_out(rows, folder, at_once, stop, known.values(), shares)
             if stop.requested:
                 print("stopped; go on with the same command")
                 return INTERRUPTED
@@ -174,12 +184,14 @@ def _plan(part: Part, folder: Path) -> Plan:
     return Plan(folder / part.name, tuple(part.configs()), post_evaluate=False)
 
 
-def _evolve_and_measure(plan: Plan, at_once: int, stop: StopRequest) -> tuple[Failure, ...]:
+def _evolve_and_measure(
+    plan: Plan, at_once: int, stop: StopRequest, shares: DeviceShares | None
+) -> tuple[Failure, ...]:
     """Run what is not done yet; the jobs that were given up."""
     from evolution.experiments.plan_runner import run_plan_shown
     from evolution.study.results import measure_runs
 
-    failures = run_plan_shown(plan, at_once, stop)
+    failures = run_plan_shown(plan, at_once, stop, shares=shares)
     return failures if stop.requested else failures + measure_runs(plan, at_once, stop)
 
 

@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from rich.console import Console
 
@@ -36,13 +36,20 @@ from evolution.search.config import RunConfig
 from evolution.search.population import first_population, next_population
 from evolution.search.scoring import score_population
 
+if TYPE_CHECKING:
+    from evolution.experiments.device.jobs import DeviceShares
+
 TRIED: Final = 5  # generations
 # An evolved population takes that many times as long as a random one (python -m benchmarks.kernel).
 EVOLVED: Final = 1.5
 
 
 def run_plan(
-    plan: Plan, at_once: int, overseer: Overseer | None = None, start: Start | None = None
+    plan: Plan,
+    at_once: int,
+    overseer: Overseer | None = None,
+    start: Start | None = None,
+    shares: DeviceShares | None = None,
 ) -> tuple[Failure, ...]:
     """Evolve and test all runs as far as that is not done; the jobs that were given up.
 
@@ -53,6 +60,7 @@ def run_plan(
         at_once: Processes at a time.
         overseer: Is told of what happens, and may stop it.
         start: How workers are started; by default forked by a process that has loaded everything.
+        shares: How a device is shared, if one is to run the trials.
 
     Raises:
         ValueError: If a folder holds another run.
@@ -64,9 +72,26 @@ def run_plan(
         return ()
     free = replace(overseer, may_start=lambda job: overseer.may_start(job) and not in_use(job.folder))
     if start is not None:
-        return run_jobs(chains, at_once, free, start)
+        return _run_chains(plan, chains, at_once, free, start, shares)
     with WarmStart(plan.folder / LOGS / "workers.log") as warm:
-        return run_jobs(chains, at_once, free, warm)
+        return _run_chains(plan, chains, at_once, free, warm, shares)
+
+
+def _run_chains(
+    plan: Plan,
+    chains: list[list[Job]],
+    at_once: int,
+    overseer: Overseer,
+    start: Start,
+    shares: DeviceShares | None,
+) -> tuple[Failure, ...]:
+    """Run the stages of a plan; on a device, batches of runs first, and what follows them afterwards."""
+    if shares is None:
+        return run_jobs(chains, at_once, overseer, start)
+    failures = run_jobs(shares.batches(chains, plan.folder), at_once, overseer, start)
+    if overseer.wants_stop():
+        return failures
+    return failures + run_jobs(shares.later(plan.chains()), at_once, overseer, start)
 
 
 def run_plan_shown(
@@ -76,6 +101,7 @@ def run_plan_shown(
     console: Console | None = None,
     elsewhere: Start | None = None,
     on_end: Callable[[Ended], None] = lambda ended: None,
+    shares: DeviceShares | None = None,
 ) -> tuple[Failure, ...]:
     """The same under the live table, plan and times being noted in the folder.
 
@@ -86,6 +112,7 @@ def run_plan_shown(
         console: Where the table is shown.
         elsewhere: How workers are started on other machines, which then get all jobs, to queue them.
         on_end: Called for every process that ended, too.
+        shares: How a device is shared, if one is to run the trials; then as many processes as it says.
 
     Returns:
         The jobs that were given up.
@@ -95,19 +122,23 @@ def run_plan_shown(
     """
     plan.check()
     write_plan(plan)
+    at_once = shares.processes if shares else at_once
+    # A process with a device advances all runs of its batch, which the time left is told by.
+    shown = len(plan.configs) if shares else at_once
     console, watch = console or Console(), PlanWatch(plan)
     with (
         StopRequest() if stop is None else nullcontext(stop) as asked,
-        shown_table(console, watch.read, at_once) as show,
+        shown_table(console, watch.read, shown) as show,
     ):
 
         def tick(jobs: Sequence[Job]) -> None:
-            watch.at_work = {job.name for job in jobs}
+            watch.at_work = {name for job in jobs for name in job.run_names}
             show()
 
         def end(ended: Ended) -> None:
             note_time(plan.folder, ended)
-            watch.forget(ended.job.name)
+            for name in ended.job.run_names:
+                watch.forget(name)
             on_end(ended)
 
         overseer = Overseer(
@@ -116,7 +147,7 @@ def run_plan_shown(
             on_note=lambda note: console.print(note, highlight=False),
             wants_stop=lambda: asked.requested,
         )
-        failures = run_plan(plan, sys.maxsize if elsewhere else at_once, overseer, elsewhere)
+        failures = run_plan(plan, sys.maxsize if elsewhere else at_once, overseer, elsewhere, shares)
         watch.at_work = set()
     return failures
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from arm2d.files import handle_to_append
-from evolution.answers import SENTENCE_PREFIX
+from evolution.answers import DEVICE_LOST, SENTENCE_PREFIX
 from evolution.child import calling
 from evolution.runs.storage import make_folder
 
@@ -31,6 +31,7 @@ class Job:
         arguments: By name, as plain values: they reach the process as JSON.
         folder: Where it writes; files that appear there are its progress.
         log: What it prints is added to this file.
+        runs: The names of all its runs, if it has several.
     """
 
     name: str
@@ -39,6 +40,12 @@ class Job:
     arguments: Mapping[str, Any] = field(hash=False)
     folder: Path
     log: Path
+    runs: tuple[str, ...] = ()
+
+    @property
+    def run_names(self) -> tuple[str, ...]:
+        """Whose it is: one run's, or those of several."""
+        return self.runs or (self.name,)
 
 
 @dataclass(frozen=True)
@@ -64,6 +71,8 @@ class Ended:
         """How it ended, in words."""
         if self.exit_code == LOST:
             return "lost sight of"
+        if self.exit_code == DEVICE_LOST:
+            return "lost its device"
         if self.exit_code >= 0:
             return f"ended with exit code {self.exit_code}"
         try:

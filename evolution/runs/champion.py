@@ -16,13 +16,14 @@ afterwards, in other trials, so that the choice does not flatter the numbers.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import run_trials
+from arm2d import TrialScores, run_trials
 from arm2d.records import brief
 from evolution.runs.folder import CHAMPIONS, RunFolder
 from evolution.runs.history import History
@@ -66,12 +67,17 @@ def find_candidates(history: History) -> Candidates:
     return Candidates(genotypes, generations, ranks)[np.sort(first)]
 
 
-def choose_champions(candidates: Candidates, config: RunConfig) -> tuple[Candidates, NDArray[np.int64]]:
-    """The best candidates in fresh trials of the experienced instructions, and their successes [C, 7]."""
+def choose_champions(
+    candidates: Candidates, config: RunConfig, run: Callable[..., TrialScores] = run_trials
+) -> tuple[Candidates, NDArray[np.int64]]:
+    """The best candidates in fresh trials of the experienced instructions, and their successes [C, 7].
+
+    Trials are run by `arm2d.run_trials` or its like.
+    """
     condition, readings = config.condition, config.readings
     rng = generator(config.seed, Purpose.CHAMPION, config.settings.generations)
     trials = draw_evolution_trials(condition.experienced, condition, TRIALS_PER_AREA, readings, rng)
-    scores = run_trials(candidates.genotypes, trials, readings)
+    scores = run(candidates.genotypes, trials, readings)
     successes = scores.success.reshape(len(scores.success), len(condition.experienced), -1).sum(axis=-1)
     fitness = mean_in_order(scores.fitness)
     # The last key counts most; lexsort is stable, so equals stay in the order of `find_candidates`.
@@ -79,15 +85,17 @@ def choose_champions(candidates: Candidates, config: RunConfig) -> tuple[Candida
     return candidates[order], successes[order]
 
 
-def keep_champions(folder: RunFolder) -> None:
+def keep_champions(folder: RunFolder, run: Callable[..., TrialScores] = run_trials) -> None:
     """Choose the champions of a finished run and write champions.npz."""
     history = History.join(folder.read_part(span) for span in folder.spans[-2:])
-    folder.write_arrays(folder.path / CHAMPIONS, champion_arrays(history, folder.config))
+    folder.write_arrays(folder.path / CHAMPIONS, champion_arrays(history, folder.config, run))
 
 
-def champion_arrays(history: History, config: RunConfig) -> dict[str, NDArray]:
+def champion_arrays(
+    history: History, config: RunConfig, run: Callable[..., TrialScores] = run_trials
+) -> dict[str, NDArray]:
     """The arrays of champions.npz, from at least the last 100 generations of a run, or from all it has."""
-    champions, successes = choose_champions(find_candidates(history[-LAST_GENERATIONS:]), config)
+    champions, successes = choose_champions(find_candidates(history[-LAST_GENERATIONS:]), config, run)
     result = evaluate(champions.genotypes, config.condition, config.readings)
     return {
         "genotypes": champions.genotypes,

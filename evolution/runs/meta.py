@@ -6,6 +6,7 @@ import json
 import os
 import platform
 import subprocess
+import sys
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
@@ -26,6 +27,8 @@ NOTHING_RUN: Final = {
 }
 LARGEST: Final = 16 * 2**20  # [bytes], tens of thousands of starts
 PACKAGES: Final = ("wordarm", "numpy", "numba", "llvmlite")
+# Of a package that takes part only where a device runs the trials: its module and its name.
+OF_DEVICES: Final = ("warp", "warp-lang")
 
 
 def now() -> str:
@@ -36,7 +39,8 @@ def now() -> str:
 def versions() -> dict[str, str]:
     """Versions of whatever takes part in the computation."""
     found = {"python": platform.python_version()}
-    for name in PACKAGES:
+    module, package = OF_DEVICES
+    for name in (*PACKAGES, package) if module in sys.modules else PACKAGES:
         try:
             found[name] = version(name)
         except PackageNotFoundError:

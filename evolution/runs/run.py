@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
 
 from evolution.runs import meta
 from evolution.runs.champion import keep_champions
@@ -19,7 +23,7 @@ from evolution.runs.replay import replay_part
 from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.algorithm import mean_in_order
 from evolution.search.config import RunConfig
-from evolution.search.population import first_population, next_population
+from evolution.search.population import Population, first_population, next_population
 from evolution.search.scoring import score_population
 
 # Seconds between two notes in the lock file of how far the run has come.
@@ -50,12 +54,16 @@ class Watcher:
         on_generation: Called after each generation.
         on_note: Called with a sentence when something unexpected was put right.
         wants_stop: Asked after each generation; if so, the run is left in good order.
+        cpu_seconds: Asked for the processor time that the run has taken [s], from whenever on.
+        choose_champions: Writes the champions of a finished run.
     """
 
     on_start: Callable[[int], None] = lambda generation: None
     on_generation: Callable[[Progress], None] = lambda progress: None
     on_note: Callable[[str], None] = lambda note: None
     wants_stop: Callable[[], bool] = lambda: False
+    cpu_seconds: Callable[[], float] = time.process_time
+    choose_champions: Callable[[RunFolder], None] = lambda folder: keep_champions(folder)
 
 
 def evolve(path: Path, config: RunConfig, watcher: Watcher | None = None) -> int:
@@ -73,6 +81,19 @@ def evolve(path: Path, config: RunConfig, watcher: Watcher | None = None) -> int
         ValueError: If the folder holds something else, a damaged part, or is in use.
         OSError: If it cannot be written; what was written before stays whole.
     """
+    with closing(evolving(path, config, watcher)) as run:
+        try:
+            population = next(run)
+            while True:
+                population = run.send(score_population(population, config))
+        except StopIteration as end:
+            return end.value
+
+
+def evolving(
+    path: Path, config: RunConfig, watcher: Watcher | None = None
+) -> Generator[Population, NDArray[np.float64], int]:
+    """The same for a caller who scores: yields generation after generation, and is sent its fitness [P]."""
     watcher = watcher or Watcher()
     refuse_other(path, config)
     make_folder(path)
@@ -80,11 +101,11 @@ def evolve(path: Path, config: RunConfig, watcher: Watcher | None = None) -> int
         folder = RunFolder.create(path, config)
         reached = resume(folder, watcher)
         if reached.population.generation < config.settings.generations:
-            reached = _score_generations(folder, reached, watcher, hold)
+            reached = yield from _score_generations(folder, reached, watcher, hold)
         else:
             _keep_last_checkpoint(folder, reached)
         if reached.population.generation == config.settings.generations and not (path / CHAMPIONS).exists():
-            keep_champions(folder)
+            watcher.choose_champions(folder)
     return reached.population.generation
 
 
@@ -122,9 +143,11 @@ def _keep_last_checkpoint(folder: RunFolder, reached: Checkpoint) -> None:
         save_checkpoint(folder, reached)
 
 
-def _score_generations(folder: RunFolder, start: Checkpoint, watcher: Watcher, hold: Hold) -> Checkpoint:
-    """Score generation after generation; write a part and a checkpoint at the end of each part."""
-    config, began = folder.config, time.process_time()
+def _score_generations(
+    folder: RunFolder, start: Checkpoint, watcher: Watcher, hold: Hold
+) -> Generator[Population, NDArray[np.float64], Checkpoint]:
+    """Let generation after generation be scored; write a part and a checkpoint at the end of each part."""
+    config, began = folder.config, watcher.cpu_seconds()
     population, part = start.population, HistoryBuilder(config)
     part.extend(start.unfinished)
     span_until = {span.stop: span for span in folder.spans}
@@ -132,7 +155,7 @@ def _score_generations(folder: RunFolder, start: Checkpoint, watcher: Watcher, h
     meta.note_start(folder.path / META, population.generation)
     watcher.on_start(population.generation)
     while population.generation < config.settings.generations and not watcher.wants_stop():
-        fitness = score_population(population, config)  # [P]
+        fitness = yield population  # [P]
         part.append(population, fitness)
         best = float(fitness.max())
         watcher.on_generation(Progress(population.generation, best, float(mean_in_order(fitness))))
@@ -144,5 +167,5 @@ def _score_generations(folder: RunFolder, start: Checkpoint, watcher: Watcher, h
             save_checkpoint(folder, Checkpoint(population, part.build()))
     reached = Checkpoint(population, part.build())
     save_checkpoint(folder, reached)
-    meta.note_end(folder.path / META, population.generation, time.process_time() - began)
+    meta.note_end(folder.path / META, population.generation, watcher.cpu_seconds() - began)
     return reached

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from evolution.child import reference
+from evolution.experiments.device.jobs import DeviceShares
 from evolution.experiments.jobs import Failure
 from evolution.experiments.plan import LOGS, TESTING, Plan
 from evolution.experiments.plan_runner import run_plan_shown
@@ -127,7 +128,12 @@ class RowFile:
 
 
 def carry_out(
-    rows: RowFile, folder: Path, at_once: int, stop: StopRequest, known: Iterable[MeasuredRun] = ()
+    rows: RowFile,
+    folder: Path,
+    at_once: int,
+    stop: StopRequest,
+    known: Iterable[MeasuredRun] = (),
+    shares: DeviceShares | None = None,
 ) -> tuple[Failure, ...]:
     """Evolve and measure all runs that have no row yet; the jobs that were given up.
 
@@ -137,6 +143,7 @@ def carry_out(
         at_once: Processes at a time.
         stop: An open one; what is at work is then left in good order.
         known: Runs measured elsewhere, which get their rows first.
+        shares: How a device is shared, if one is to evolve the runs; measured they are on the processor.
 
     Raises:
         ValueError: If the file of rows cannot be understood, or a folder holds another run.
@@ -152,4 +159,4 @@ def carry_out(
             if ended.exit_code == 0 and ended.job.stage == plan.last_stage:
                 rows.add([plan.row(ended.job.folder)])
 
-        return run_plan_shown(plan, at_once, stop, on_end=keep)
+        return run_plan_shown(plan, at_once, stop, on_end=keep, shares=shares)

@@ -1,7 +1,6 @@
 import numpy as np
 
 from arm2d import NON_EXPERIENCED
-from evolution.runs import champion
 from evolution.runs.champion import Candidates, choose_champions, find_candidates
 from evolution.runs.folder import CHAMPIONS, RunFolder
 from evolution.runs.recorded import recorded_history
@@ -44,7 +43,7 @@ def test_never_met_instructions_take_no_part_in_the_choice(finished_run, monkeyp
     assert not set(drawn) & set(NON_EXPERIENCED)
 
 
-def test_the_worst_instruction_counts_before_the_sum_and_the_sum_before_fitness(monkeypatch):
+def test_the_worst_instruction_counts_before_the_sum_and_the_sum_before_fitness():
     class Scores:
         # Four candidates, seven instructions of one trial for each of 80.
         success = np.zeros((4, 7, 80), dtype=bool)
@@ -56,9 +55,8 @@ def test_the_worst_instruction_counts_before_the_sum_and_the_sum_before_fitness(
     Scores.fitness[2] = 1.0
     Scores.success[3, :5] = True
     Scores.success = Scores.success.reshape(4, 560)
-    monkeypatch.setattr(champion, "run_trials", lambda *_: Scores)
     candidates = Candidates(np.zeros((4, 84)), np.arange(4), np.zeros(4, dtype=np.int64))
-    champions, successes = choose_champions(candidates, SMALL)
+    champions, successes = choose_champions(candidates, SMALL, lambda *_: Scores)
     assert champions.generations.tolist() == [2, 1, 0, 3]
     assert successes[0].tolist() == [10] * 7
 

@@ -1,0 +1,23 @@
+"""What can go wrong on a device, in one sentence."""
+
+from __future__ import annotations
+
+
+class DeviceMemoryError(ValueError):
+    """A device has too little memory for what it was asked."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(
+            f"{name} has too little memory left for even one group of trials; let fewer processes share it "
+            "(--jobs), or leave --device away to use the processor"
+        )
+
+
+class DeviceLostError(ValueError):
+    """A device no longer answers, or not with what was asked for."""
+
+    def __init__(self, name: str, said: str) -> None:
+        super().__init__(
+            f"{name} was lost ({said}); nothing that was written is: repeat the command to go on, "
+            "without --device if it does not come back"
+        )

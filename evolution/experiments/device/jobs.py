@@ -1,0 +1,100 @@
+"""The jobs of an experiment whose trials a device runs: batches of runs, each in a process of its own.
+
+A process breeds and writes the runs of its batch, one after the other, and has the device score a generation
+of all of them at once. Several such processes share a device: while one breeds, the others' trials run.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+from arm2d.device.opening import CUDA, PROCESSOR, check_name, cuda_names, open_device
+from evolution.child import reference
+from evolution.experiments.device.stages import evolve_batch, test_run_on
+from evolution.experiments.plan import EVOLVING, LOGS, TESTING
+from evolution.experiments.workers import Job
+
+# Chosen, not measured: each holds some 0.5 GB of the device for itself, and breeds on one core.
+PROCESSES_PER_DEVICE: Final = 8
+# What a process is told must fit into one message.
+MOST_RUNS: Final = 128
+
+
+def device_shares(name: str, asked: int | None, threads_there: int | None = None) -> DeviceShares | None:
+    """How runs share the device that a command is given; None if that is the processor.
+
+    Args:
+        name: What `--device` says.
+        asked: Processes that are to share it, if the user says how many.
+        threads_there: On a cluster, how many jobs it does at once; each worker has devices of its own.
+
+    Raises:
+        ValueError: In one sentence, if there is no such device.
+    """
+    if check_name(name) == PROCESSOR:
+        return None
+    if threads_there is not None:
+        return DeviceShares((name,), threads_there)
+    open_device(name)
+    names = tuple(cuda_names()) if name == CUDA else (name,)
+    most = min(len(os.sched_getaffinity(0)), PROCESSES_PER_DEVICE * len(names))
+    return DeviceShares(names, asked or most)
+
+
+@dataclass(frozen=True)
+class DeviceShares:
+    """How runs share one device, or several.
+
+    Attributes:
+        devices: Their names; the batches take them in turn.
+        processes: That share them, all together.
+    """
+
+    devices: tuple[str, ...]
+    processes: int
+
+    def batches(self, chains: Sequence[Sequence[Job]], folder: Path) -> list[list[Job]]:
+        """Jobs that evolve what is not evolved yet, runs that follow each other in one batch.
+
+        Args:
+            chains: The stages of runs, as `Plan.chains` gives them.
+            folder: Of the experiment.
+        """
+        evolving = [chain[0] for chain in chains if chain[0].stage == EVOLVING]
+        n = max(min(self.processes, len(evolving)), -(-len(evolving) // MOST_RUNS))
+        return [[self._batch(evolving, number, n, folder)] for number in range(n)]
+
+    def later(self, chains: Sequence[Sequence[Job]]) -> list[list[Job]]:
+        """What follows evolution; the tests run on the device, too."""
+        return [
+            [self._tested(job, number) for job in chain]
+            for number, chain in enumerate(chains)
+            if chain[0].stage != EVOLVING
+        ]
+
+    def _batch(self, evolving: Sequence[Job], number: int, n: int, folder: Path) -> Job:
+        """Job `number` of n."""
+        first, last = (len(evolving) * each // n for each in (number, number + 1))
+        jobs = evolving[first:last]
+        arguments = {
+            "device": self._device(number),
+            "runs": [(job.arguments["folder"], job.arguments["config"]) for job in jobs],
+        }
+        more = f" and {len(jobs) - 1} more" if len(jobs) > 1 else ""
+        log = folder / LOGS / f"batch-{number + 1:03d}-of-{n:03d}.log"
+        names = tuple(job.name for job in jobs)
+        return Job(names[0] + more, EVOLVING, reference(evolve_batch), arguments, folder, log, names)
+
+    def _tested(self, job: Job, number: int) -> Job:
+        """A job on the device, if it is one of those that can be."""
+        if job.stage != TESTING:
+            return job
+        arguments = {"device": self._device(number), **job.arguments}
+        return replace(job, function=reference(test_run_on), arguments=arguments)
+
+    def _device(self, number: int) -> str:
+        return self.devices[number % len(self.devices)]
