@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any, Final
 
 import tomli_w
@@ -79,13 +79,17 @@ class RunConfig:
             "readings": self.readings.to_mapping(),
         }
 
+    def _all_values(self) -> dict[str, Any]:
+        """Every value, those included that files leave unsaid."""
+        return {**self.to_mapping(), "settings": asdict(self.settings)}
+
     def to_toml(self) -> str:
         """The text of config.toml; reading it back gives this record."""
         return HEADING + tomli_w.dumps(self.to_mapping())
 
     def differences(self, other: RunConfig) -> list[str]:
         """What is otherwise in `other`, such as "seed = 3, not 4"; empty if they are the same run."""
-        mine, others = _flatten(self.to_mapping()), _flatten(other.to_mapping())
+        mine, others = _flatten(self._all_values()), _flatten(other._all_values())
         return [f"{key} = {mine[key]}, not {others[key]}" for key in mine if mine[key] != others[key]]
 
 
