@@ -145,7 +145,7 @@ def passes(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
 
 def _test(run: RunFolder, span: range) -> TransitionTest:
     """The classed agents of some generations; those of a generation meet the same trials."""
-    condition, readings = run.config.condition, run.config.readings
+    condition, readings = run.config.papers_condition, run.config.readings
     actions, objects = action_transitions(condition), object_transitions(condition)
     evaluated = POST_EVALUATION.read_part(run, span).successes
     tests = []
@@ -168,7 +168,7 @@ def _test(run: RunFolder, span: range) -> TransitionTest:
 
 def _check(path: Path, arrays: Mapping[str, NDArray], run: RunFolder, span: range) -> None:
     """Refuse arrays that no transition test gives."""
-    condition = run.config.condition
+    condition = run.config.papers_condition
     n = np.size(arrays.get("generations", ()))
     shapes = {
         "generations": ((n,), np.int32),

@@ -27,7 +27,7 @@ from evolution.search.algorithm import mean_in_order
 from evolution.search.ask_tell import State, taken
 from evolution.search.config import RunConfig
 from evolution.search.randomness import Purpose, generator
-from evolution.search.settings import CMA_ES, LARGEST_FITNESS
+from evolution.search.settings import CMA_ES
 
 # What counts as better, as a share of the largest fitness: less is what fresh trials alone bring about.
 LEAST_GAIN: Final = 0.005
@@ -93,10 +93,11 @@ class CmaEs:
     def _note_level(self) -> None:
         """Count for how long nothing has been better; one that is nearly perfect need not become better."""
         state = self._state
-        better = state["level"] >= state["highest"] + LEAST_GAIN * LARGEST_FITNESS
+        largest = self._config.task.largest_fitness
+        better = state["level"] >= state["highest"] + LEAST_GAIN * largest
         if better:
             state["highest"] = state["level"]
-        stands = not better and state["level"] < SOLVED * LARGEST_FITNESS
+        stands = not better and state["level"] < SOLVED * largest
         state["idle"] = np.array(int(state["idle"]) + 1 if stands else 0)
 
     def _begin_search(self, n_candidates: int) -> None:

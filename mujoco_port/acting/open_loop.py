@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
+from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import Instruction, Readings
+from arm2d import Instruction, Readings, Task
 from arm2d import constants as c
-from arm2d.reference import Side, controller, sense, touch
+from arm2d.reference import PAPERS, Side, controller, sense, touch
+from arm2d.tasks.hearing import bits_heard
 from mujoco_port.acting.rollout import Angles, PhysicalRecord
 
 
@@ -21,6 +23,7 @@ def planar_angles(
     discs: NDArray[np.float64],
     readings: Readings,
     delay: int = 0,
+    task: Task | None = None,
 ) -> Iterator[Angles]:
     """Alpha and beta in [deg] at the start of a trial of the 2D world and after every step, without an end.
 
@@ -34,15 +37,17 @@ def planar_angles(
         discs: [3, 2] in [cm], centres of blue, green and red.
         readings: The world.
         delay: Steps from what is sensed to the turn that answers to it, beyond the step of the 2D world.
+        task: How the words are said, if not as in the paper.
     """
     think = controller(genotype, readings)
     places = [(x, y) for x, y in discs.tolist()]
     sides: list[Side] = [None, None, None]
     beta = c.BETA_MAX
     turns = deque([(0.0, 0.0)] * delay)
-    while True:
+    for step in count():
         yield alpha, beta
-        turns.append(think(sense(alpha, beta, places, sides, instruction, readings)))
+        words = bits_heard(instruction, task or PAPERS, step)
+        turns.append(think(sense(alpha, beta, places, sides, words, readings)))
         turn1, turn2 = turns.popleft()
         new_alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
         new_beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))

@@ -14,7 +14,7 @@ from matplotlib.patches import Circle, FancyBboxPatch, Rectangle, Wedge
 from matplotlib.text import Text
 from numpy.typing import ArrayLike, NDArray
 
-from arm2d import NON_EXPERIENCED, ActionWord, Instruction, ObjectWord
+from arm2d import ActionWord, Instruction, ObjectWord, Task
 from arm2d import constants as c
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS, look
 from arm2d.video import DPI
@@ -47,6 +47,7 @@ class MindPanel:
         title: Whose body it is.
         verdicts: Who judges and whether the instruction was carried out; shown from `end` on.
         end: The step at which the verdicts are known.
+        task: Whose words are heard; by default the paper's.
     """
 
     @look()
@@ -57,10 +58,11 @@ class MindPanel:
         title: str,
         verdicts: tuple[tuple[str, bool], ...],
         end: float,
+        task: Task | None = None,
     ) -> None:
         self._mind, self._instruction, self._verdicts, self._end = mind, instruction, verdicts, end
-        is_ignore = instruction.action is ActionWord.IGNORE
-        self._third = ActionWord.IGNORE if is_ignore else ActionWord.INDICATE
+        third = "ignore" if instruction.action is ActionWord.IGNORE else "indicate"
+        self._task = task or Task(third=third)
         figure = blank(WIDTH, HEIGHT)
         self._canvas = FigureCanvasAgg(figure)
         self._axes = axes = figure.add_axes((0, 0, 1, 1))
@@ -75,7 +77,7 @@ class MindPanel:
         self._ring, self._share, self._clock, self._score, self._outcome = self._draw_ring()
         for artist in self._moving:
             artist.set_animated(True)
-        self._heard: Instruction | None = None
+        self._heard: tuple[ActionWord | None, ObjectWord | None] | None = None
         self._background: Any = None  # of the canvas, without what moves
         self._shown: tuple[int, bool] | None = None
         self._picture = np.empty(0, np.uint8)
@@ -97,7 +99,7 @@ class MindPanel:
     def _show(self, state: int, ended: bool) -> None:
         """Set everything as it is after `state` steps."""
         mind, step = self._mind, min(state, self._mind.steps - 1)
-        self._light_words(mind.heard(step, self._third))
+        self._light_words(mind.heard(step, self._task))
         values = mind.inputs[step]
         for lamp, index, colour in self._lamps:
             lamp.set_facecolor(colour if values[index] > 0.5 else UNLIT)
@@ -119,12 +121,13 @@ class MindPanel:
         shown = [f"{mark(success)} {judge}" for judge, success in self._verdicts] if ended else []
         self._outcome.set_text("\n".join(shown))
 
-    def _light_words(self, heard: Instruction) -> None:
+    def _light_words(self, heard: tuple[ActionWord | None, ObjectWord | None]) -> None:
         """Light the words that are heard; as they seldom change, all that stands still is drawn with them."""
         if heard == self._heard:
             return
+        said = [word.name for word in heard if word is not None]
         for name, (patch, text) in self._chips.items():
-            lit = name in (heard.action.name, heard.object.name)
+            lit = name in said
             colour = OBJECT_COLOURS[ObjectWord[name]] if name in ObjectWord.__members__ else INK
             patch.set_facecolor(colour if lit else FLOOR)
             patch.set_edgecolor(colour if lit else UNLIT)
@@ -138,11 +141,11 @@ class MindPanel:
         return artist
 
     def _draw_words(self) -> dict[str, tuple[FancyBboxPatch, Text]]:
-        """Three action words over three object words: those that are heard are lit."""
-        width, height, gap = CHIP
+        """The action words over the object words: those that are heard are lit."""
+        usual, height, gap = CHIP
         chips = {}
-        actions = (ActionWord.MOVE, ActionWord.TOUCH, self._third)
-        for row, words in enumerate((actions, tuple(ObjectWord))):
+        for row, words in enumerate((self._task.actions, tuple(ObjectWord))):
+            width = (3 * usual + 2 * gap - (len(words) - 1) * gap) / len(words)
             for column, word in enumerate(words):
                 x, y = LEFT + column * (width + gap) + 8, WORDS_TOP + row * (height + gap)
                 shape = "round,pad=0,rounding_size=9"
@@ -154,7 +157,7 @@ class MindPanel:
                     self._axes, x + width / 2, y + height / 2, name, size=size, ha="center", weight="bold"
                 )
                 chips[word.name] = patch, text
-        met = self._instruction not in NON_EXPERIENCED
+        met = self._instruction not in self._task.held_out
         y = WORDS_TOP + 2 * (height + gap) + 14
         if met:
             _write(self._axes, WIDTH / 2, y, "met during evolution", size=9, color=FAINT, ha="center")
