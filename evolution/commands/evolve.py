@@ -31,7 +31,7 @@ class UncheckedReadings(Readings):
 
 @dataclass(frozen=True)
 class TaskOptions:
-    """What is asked and how it is said, where it is not as in the paper (docs/tasks.md)."""
+    """What is asked and how it is said, where it is not as in the paper (docs/how-to/task.md)."""
 
     held_out: tuple[str, ...] | None = None
     """Instructions never met in evolution. By default "move blue" and "touch green", as in the paper."""

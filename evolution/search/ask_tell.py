@@ -97,7 +97,7 @@ def maker_of(config: RunConfig) -> Maker:
     known = ", ".join([*_BUILT_IN, *_registered, *offered])
     raise ValueError(
         f"the algorithm {name!r} is not known here; there are {known}; one of your own is made known with "
-        "evolution.register_algorithm or by its package (docs/algorithms.md)"
+        "evolution.register_algorithm or by its package (docs/how-to/algorithm.md)"
     )
 
 

@@ -44,7 +44,7 @@ class Settings:
     """Trials of each instruction from each of the two start areas."""
 
     algorithm: str = GENETIC
-    """genetic, the paper's; cma-es; or one of your own (docs/algorithms.md)."""
+    """genetic, the paper's; cma-es; or one of your own (docs/how-to/algorithm.md)."""
 
     cma_sigma: float = 0.25
     """CMA-ES: standard deviation of the first genotypes around their mean, in genes of 0 to 1."""

@@ -9,11 +9,14 @@ import pytest
 import evolution
 from arm2d import Condition, Task
 from evolution.cli import main
+from evolution.commands.robot import candidate
 from evolution.experiments.grid import experiment_from_mapping
 from evolution.experiments.plan_file import read_plan, write_plan
+from evolution.player.agents import agent_for_page
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.run import Watcher, evolve
+from evolution.runs.sources import find_agent
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import evaluate
 from evolution.search.settings import Settings
@@ -101,6 +104,15 @@ def test_what_is_made_for_the_paper_refuses_it_in_one_sentence(command, finished
     error = capsys.readouterr().err
     assert "this analysis is made for the paper's two conditions, with-indicate and with-ignore, not" in error
     assert sorted(finished.iterdir()) == before
+
+
+def test_robot_counts_page_and_gallery_refuse_it_too(finished, tmp_path, capsys):
+    for ask in (lambda: candidate(str(finished)), lambda: agent_for_page(find_agent(str(finished)))):
+        with pytest.raises(ValueError, match="is made for the paper's two conditions"):
+            ask()
+    assert main(["port", str(finished), "all", f"--output={tmp_path / 'all.mp4'}"]) == 2
+    assert "the gallery of nine is made for the paper's two conditions" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_fitness_is_a_mean_over_what_is_met(finished):
