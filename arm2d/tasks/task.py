@@ -126,9 +126,11 @@ class Task:
         """How three object words, then four action words are heard, [7, 3]."""
         import numpy as np  # here, for whoever only asks for help
 
-        words = (*ObjectWord, *ActionWord)
-        known = {**OBJECT_CODES, **_action_codes(self.third)}
-        return np.array([self._given_codes.get(word.name, known[word]) for word in words])
+        # Not in one table: as numbers, an object word and an action word may be equal.
+        actions, given = _action_codes(self.third), self._given_codes
+        of_objects = [given.get(word.name, OBJECT_CODES[word]) for word in ObjectWord]
+        of_actions = [given.get(word.name, actions[word]) for word in ActionWord]
+        return np.array([*of_objects, *of_actions])
 
     @property
     def in_sequence(self) -> bool:

@@ -7,6 +7,7 @@ import pytest
 
 import arm2d
 from arm2d import Condition, Instruction, LabelChanges, Readings, Task, draw_trials, record_trial, run_trials
+from arm2d.kernel.world import WORD_CODES
 from arm2d.reference import run_trial
 from arm2d.tasks.task import as_paper, papers_condition, read_task, task_of
 
@@ -28,6 +29,17 @@ def test_the_conditions_of_the_paper_are_two_of_them(condition):
     assert as_paper(task) is condition
     assert task.to_mapping() == {}
     assert task.largest_fitness == 18 / 7
+
+
+@pytest.mark.parametrize("condition", Condition)
+def test_the_papers_words_sound_as_the_kernel_has_them(condition):
+    assert np.array_equal(task_of(condition).word_codes, WORD_CODES)
+
+
+def test_a_code_of_ones_own_is_the_words_and_no_others():
+    changed = Task(codes=("blue 111", "touch 100")).word_codes
+    assert np.flatnonzero((changed != WORD_CODES).any(axis=1)).tolist() == [0, 4]
+    assert changed[[0, 4]].tolist() == [[1, 1, 1], [1, 0, 0]]
 
 
 def test_a_task_that_is_the_papers_draws_its_trials_with_its_bits():

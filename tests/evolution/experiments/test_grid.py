@@ -135,7 +135,7 @@ def test_a_plan_cannot_lead_out_of_its_folder(tmp_path):
 
 
 BAD = {
-    "seed = 3": "unknown key 'seed'; did you mean seeds? there are output, jobs, conditions, seeds",
+    "seed = 3": "unknown key 'seed'; did you mean seeds? there are output, jobs, conditions, task",
     "zzz = 3": "unknown key 'zzz'; there are output, jobs,",
     "[readings]\nobject_radus = 3": "unknown reading 'object_radus' in [readings]; did you mean",
     "[settings]\ngeneration = 3": "unknown setting 'generation' in [settings]; did you mean generations?",
