@@ -61,7 +61,7 @@ def words_of(bits: NDArray, task: Task) -> tuple[ActionWord | None, ObjectWord |
 
 def bits_heard(instruction: Instruction, task: Task, step: int) -> list[int]:
     """I13 to I18 in a step, counted from 0, told as simply as possible."""
-    codes = task.word_codes.tolist()
+    codes = task.code_lists
     object_, action = codes[instruction.object], codes[len(ObjectWord) + instruction.action]
     if task.words == "together":
         return [*object_, *action]

@@ -132,6 +132,11 @@ class Task:
         of_actions = [given.get(word.name, actions[word]) for word in ActionWord]
         return np.array([*of_objects, *of_actions])
 
+    @cached_property
+    def code_lists(self) -> list[list[int]]:
+        """The same as plain lists, for whoever asks in every step."""
+        return self.word_codes.tolist()
+
     @property
     def in_sequence(self) -> bool:
         """Whether the words come one after the other."""
