@@ -218,7 +218,10 @@ def _third(condition: str) -> Third:
     name = condition.strip().lower().replace("_", "-").replace(" ", "-")
     if name == WITH_BOTH:
         return "both"
-    return "indicate" if Condition.parse(condition) is Condition.WITH_INDICATE else "ignore"
+    try:
+        return "indicate" if Condition.parse(condition) is Condition.WITH_INDICATE else "ignore"
+    except ValueError as error:
+        raise ValueError(f"{error}, {WITH_BOTH}") from None
 
 
 def _action_codes(third: Third) -> dict[ActionWord, Code]:

@@ -152,6 +152,11 @@ def test_an_experiment_of_impossible_tasks_is_refused(values, sentence, tmp_path
         experiment_from_mapping(values, tmp_path)
 
 
+def test_a_condition_that_does_not_exist_is_answered_with_all_that_do():
+    with pytest.raises(ValueError, match=r"there are with-indicate, with-ignore, with-both$"):
+        RunConfig("with-shout")
+
+
 def test_the_command_line_refuses_a_task_that_makes_no_sense(tmp_path, capsys):
     out = f"--output={tmp_path / 'run'}"
     assert main(["evolve", "--task.held-out", "move blue", "move green", "move red", "--seed=1", out]) == 2
