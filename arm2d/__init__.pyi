@@ -15,6 +15,7 @@ from .instructions import ObjectWord as ObjectWord
 from .readings import Readings as Readings
 from .running import record_trial as record_trial
 from .running import run_trials as run_trials
+from .tasks.task import Task as Task
 from .trials import LabelChanges as LabelChanges
 from .trials import TrialRecord as TrialRecord
 from .trials import Trials as Trials

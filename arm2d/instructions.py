@@ -83,6 +83,11 @@ class Condition(StrEnum):
         return tuple(Instruction(action, object_) for action in actions for object_ in ObjectWord)
 
     @property
+    def held_out(self) -> tuple[Instruction, ...]:
+        """The two never met."""
+        return NON_EXPERIENCED
+
+    @property
     def experienced(self) -> tuple[Instruction, ...]:
         """The seven instructions met during evolution."""
         return tuple(each for each in self.instructions if each not in NON_EXPERIENCED)

@@ -27,11 +27,15 @@ from arm2d.geometry import (
     s2_pose,
     to_s2,
 )
-from arm2d.instructions import ACTION_CODES, OBJECT_CODES, ActionWord, Instruction
+from arm2d.instructions import ActionWord, Instruction
 from arm2d.readings import Readings
+from arm2d.tasks.hearing import bits_heard
+from arm2d.tasks.task import Task
 
 # Inputs summed group by group: touch; camera sectors 1, 2, 3; bend; words.
 TOUCH, SECTORS, BEND, WORDS = range(2), (range(2, 5), range(5, 8), range(8, 11)), range(11, 12), range(12, 18)
+# Whose words sound as in the paper: all of its, for INDICATE and IGNORE share a code there.
+PAPERS: Final = Task()
 RIGHT: Final = "right"
 LEFT: Final = "left"
 
@@ -55,13 +59,16 @@ def run_trial(
     discs: Iterable[Iterable[float]],
     readings: Readings,
     changes: tuple[Instruction, Instruction, int] | None = None,
+    task: Task = PAPERS,
 ) -> Score:
     """Carry out one trial (spec section 8) with a genotype [84].
 
     S1 starts at `alpha` [deg], the blue, green and red disc at three (x, y) [cm]. A transition test's
-    `changes` are (instruction heard first, instruction heard later, delay); scored is `instruction`.
+    `changes` are (instruction heard first, instruction heard later, delay); scored is `instruction`. The task
+    tells how words are said.
     """
-    return carry_out(controller(genotype, readings), instruction, alpha, discs, readings, changes)
+    think = controller(genotype, readings)
+    return carry_out(think, instruction, alpha, discs, readings, changes, task=task)
 
 
 def carry_out(
@@ -74,6 +81,7 @@ def carry_out(
     *,
     beta: float = c.BETA_MAX,
     most_steps: int = c.MAX_STEPS,
+    task: Task = PAPERS,
 ) -> Score:
     """The same for whatever turns 18 inputs into the turns of S1 and S2; S2 starts at `beta` [deg]."""
     r, target = readings, instruction.object
@@ -84,8 +92,8 @@ def carry_out(
     countdown, run, best, stretch = None, 0.0, 0.0, 0.0
     full = goal(instruction.action, r)
     first_offset = offset = offset_of(alpha, placed[target])
-    for step in range(1, most_steps + 1):  # noqa: B007 - the last step's number is part of the score
-        turn1, turn2 = think(sense(alpha, beta, placed, sides, heard, r))
+    for step in range(1, most_steps + 1):
+        turn1, turn2 = think(sense(alpha, beta, placed, sides, bits_heard(heard, task, step - 1), r))
         new_alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
         new_beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))
         placed, sides = touch(alpha, beta, new_alpha, new_beta, placed, sides, r.object_radius)
@@ -162,10 +170,10 @@ def sense(
     beta: float,
     discs: Sequence[Point],
     sides: Sequence[Side],
-    heard: Instruction,
+    heard: Instruction | Sequence[int],
     r: Readings,
 ) -> list[float]:
-    """I1 to I18 (spec section 4)."""
+    """I1 to I18 (spec section 4); heard is an instruction, said as in the paper, or what I13 to I18 are."""
     sectors = [[False] * 3 for _ in range(3)]
     for disc, centre in enumerate(discs):
         low, high = _seen_interval(alpha, centre, r)
@@ -179,7 +187,7 @@ def sense(
     if alpha >= c.ALPHA_MAX - blind:
         sectors[2] = [True] * 3
     touch = [RIGHT in sides, LEFT in sides]
-    words = [*OBJECT_CODES[heard.object], *ACTION_CODES[heard.action]]
+    words = bits_heard(heard, PAPERS, 0) if isinstance(heard, Instruction) else heard
     return [*map(float, touch + sum(sectors, [])), beta / c.BETA_MAX, *map(float, words)]  # noqa: RUF017
 
 

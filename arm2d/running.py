@@ -19,6 +19,7 @@ from arm2d.kernel import exchange
 from arm2d.kernel.loop import run_population
 from arm2d.kernel.world import WORD_CODES, tables_of, world_of
 from arm2d.readings import Readings
+from arm2d.tasks.hearing import phase_after, phases, word_bits
 from arm2d.trials import TrialRecord, Trials, TrialScores
 
 NO_RECORDING = np.empty((0, exchange.RECORD_COLUMNS))
@@ -30,7 +31,7 @@ def run_trials(
     readings: Readings | None = None,
     *,
     threads: int = 1,
-    word_codes: NDArray[np.int64] = WORD_CODES,
+    word_codes: NDArray[np.int64] | None = None,
 ) -> TrialScores:
     """Run every trial with every genotype.
 
@@ -39,8 +40,8 @@ def run_trials(
         trials: T trials, the same for all genotypes.
         readings: The world; the default readings if none are given.
         threads: Genotypes are shared out among so many threads. The results do not depend on it.
-        word_codes: [7, 3], how three object words, then four action words are heard; by default as spec
-            section 4 has them. A lesion experiment changes a row.
+        word_codes: [7, 3], how three object words, then four action words are heard; by default as the
+            trials' task, or else spec section 4, has them. A lesion experiment changes a row.
 
     Returns:
         Scores with arrays [P, T].
@@ -53,7 +54,8 @@ def run_trials(
         raise ValueError(f"asked for {threads} threads; there must be at least 1")
     genes = check_genotypes(genotypes)
     networks, arrays = decode_flat(genes, readings), arrays_of(trials)
-    world, tables = world_of(readings), tables_of(readings)._replace(codes=word_codes)
+    codes = codes_of(trials) if word_codes is None else word_codes
+    world, tables = world_of(readings), tables_of(readings)._replace(codes=codes)
     outcomes = empty_outcomes(len(genes), len(trials))
 
     def run(part: slice) -> None:
@@ -90,11 +92,16 @@ def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None =
     outcomes = empty_outcomes(1, 1)
     rows = np.empty((c.MAX_STEPS, exchange.RECORD_COLUMNS))
     networks = decode_flat(genes, readings)
-    world, tables = world_of(readings), tables_of(readings)
+    world, tables = world_of(readings), tables_of(readings)._replace(codes=codes_of(trial))
     run_population(networks, arrays_of(trial), world, tables, outcomes, rows)
     scores = TrialScores(*outcomes)
     rows = rows[: scores.steps[0, 0]]
     return record_of(trial, readings, rows, _inputs_of(trial, rows), scores)
+
+
+def codes_of(trials: Trials) -> NDArray[np.int64]:
+    """How the words of these trials are heard, [7, 3]."""
+    return WORD_CODES if trials.task is None else np.array(trials.task.word_codes)
 
 
 def arrays_of(trials: Trials) -> exchange.TrialArrays:
@@ -106,6 +113,10 @@ def arrays_of(trials: Trials) -> exchange.TrialArrays:
         first = np.stack([changes.first_actions, changes.first_objects], axis=-1)
         later = np.stack([changes.later_actions, changes.later_objects], axis=-1)
         words, delays = np.stack([first, later], axis=1), changes.delays
+    word_steps = np.zeros(len(trials), np.int64)
+    if trials.task is not None and trials.task.in_sequence:
+        words = phases(trials.actions, trials.objects, trials.task)
+        word_steps[:] = trials.task.word_steps
     return exchange.TrialArrays(
         action=trials.actions,
         object=trials.objects,
@@ -114,6 +125,7 @@ def arrays_of(trials: Trials) -> exchange.TrialArrays:
         distance=np.sqrt(x * x + y * y),
         heard=words,
         delay=delays,
+        word_steps=word_steps,
     )
 
 
@@ -162,6 +174,7 @@ def record_of(
         states=rows[:, exchange.RECORD_STATE : exchange.RECORD_STATE + c.N_INTER].copy(),
         turns=np.stack([rows[:, exchange.RECORD_TURN], np.diff(beta)], axis=-1),
         scores=scores,
+        task=trial.task,
     )
 
 
@@ -181,14 +194,16 @@ def _inputs_of(trial: Trials, rows: NDArray) -> NDArray[np.float64]:
     touch = np.concatenate([[0], rows[:-1, exchange.RECORD_TOUCH].astype(int)])
     camera = rows[:, exchange.RECORD_CAMERA].astype(int)
     beta_before = np.concatenate([[c.BETA_MAX], rows[:-1, exchange.RECORD_BETA]])
-    heard = arrays_of(trial).heard[0][rows[:, exchange.RECORD_CHANGED].astype(int)]  # [K, 2]
+    which = rows[:, exchange.RECORD_CHANGED].astype(int)
+    if trial.task is not None:
+        which = which + phase_after(np.arange(len(rows)), trial.task)
+    heard = arrays_of(trial).heard[0][which]  # [K, 2]
     return np.concatenate(
         [
             touch[:, np.newaxis] >> np.arange(2) & 1,
             camera[:, np.newaxis] >> np.arange(9) & 1,
             beta_before[:, np.newaxis] / c.BETA_MAX,
-            WORD_CODES[heard[:, 1]],
-            WORD_CODES[3 + heard[:, 0]],
+            word_bits(heard[:, 0], heard[:, 1], codes_of(trial)),
         ],
         axis=1,
         dtype=np.float64,

@@ -17,6 +17,7 @@ from arm2d.arithmetic import sin_cos
 from arm2d.instructions import ActionWord, Instruction, ObjectWord
 from arm2d.readings import Readings
 from arm2d.records import brief
+from arm2d.tasks.task import AnyTask, Task, as_paper
 
 MOST_PER_AREA = 100_000
 
@@ -65,6 +66,7 @@ class Trials:
         alpha: [T], angle of S1 in [deg].
         discs: [T, 3, 2], centres of the blue, green and red disc in [cm].
         changes: The words heard, where they are not those that are scored throughout.
+        task: How the words are said, if not as in the paper; see `arm2d.Task`.
     """
 
     actions: NDArray[np.int64]
@@ -72,6 +74,7 @@ class Trials:
     alpha: NDArray[np.float64]
     discs: NDArray[np.float64]
     changes: LabelChanges | None = None
+    task: Task | None = None
 
     def __post_init__(self) -> None:
         _store(self, "actions", _whole_numbers("actions", self.actions, 0, len(ActionWord) - 1))
@@ -79,6 +82,8 @@ class Trials:
         _store(self, "alpha", np.array(self.alpha, dtype=np.float64))
         _store(self, "discs", np.array(self.discs, dtype=np.float64))
         _check_starts(self)
+        if self.changes is not None and self.task is not None and self.task.in_sequence:
+            raise ValueError("words that come one after the other cannot change in mid-trial; leave one out")
 
     def __repr__(self) -> str:
         asked = len(set(zip(self.actions.tolist(), self.objects.tolist(), strict=True)))
@@ -95,7 +100,8 @@ class Trials:
                 raise IndexError(f"trial {index} does not exist; there are {len(self)}")
             index = np.array([index])
         changes = None if self.changes is None else self.changes[index]
-        return Trials(self.actions[index], self.objects[index], self.alpha[index], self.discs[index], changes)
+        starts = self.alpha[index], self.discs[index]
+        return Trials(self.actions[index], self.objects[index], *starts, changes, self.task)
 
     @property
     def instructions(self) -> list[Instruction]:
@@ -150,6 +156,7 @@ class TrialRecord:
         states: [K, 3], the inter-neurons' states y after each step.
         turns: [K, 2], turns of S1 and S2 in each step after clipping [deg].
         scores: F1, F2, F3, success and steps, each [1, 1].
+        task: How the words were said, if not as in the paper.
     """
 
     instruction: Instruction
@@ -162,6 +169,7 @@ class TrialRecord:
     states: NDArray[np.float64]
     turns: NDArray[np.float64]
     scores: TrialScores
+    task: Task | None = None
 
     def __repr__(self) -> str:
         outcome = "" if self.success else "not "
@@ -188,6 +196,7 @@ def draw_trials(
     per_area: int,
     readings: Readings,
     rng: np.random.Generator,
+    task: AnyTask | None = None,
 ) -> Trials:
     """Trials of each instruction from fresh starts: `per_area` in the right area, then as many in the left.
 
@@ -199,6 +208,7 @@ def draw_trials(
         per_area: Trials of each instruction from each start area.
         readings: The world.
         rng: Every draw comes from it.
+        task: How the words are said and where the colours stand, if not as in the paper.
 
     Raises:
         ValueError: If there are no trials to draw, too many, or an instruction is not understood.
@@ -216,7 +226,11 @@ def draw_trials(
     low, high = np.array(readings.start_intervals).T  # [2 areas]
     draws = rng.random((n, 2, per_area, 1 + c.N_OBJECTS))
     alpha = low[:, np.newaxis] + (high - low)[:, np.newaxis] * draws[..., 0]  # [n, 2, per_area]
+    own = _own_task(task)
     ends = _chord_ends(readings)
+    if own is not None and own.places == "dealt":
+        sectors = rng.random((n, 2, per_area, c.N_OBJECTS)).argsort(axis=-1)
+        ends = ends[:, sectors]  # [2 ends, n, 2, per_area, 3, 2]
     discs = ends[0] + (ends[1] - ends[0]) * draws[..., 1:, np.newaxis]
     repeats = 2 * per_area
     return Trials(
@@ -224,7 +238,14 @@ def draw_trials(
         objects=np.repeat([each.object for each in instructions], repeats),
         alpha=alpha.reshape(-1),
         discs=discs.reshape(-1, c.N_OBJECTS, 2),
+        task=own,
     )
+
+
+def _own_task(task: AnyTask | None) -> Task | None:
+    """A task that is not the paper's; None of one that is."""
+    found = None if task is None else as_paper(task)
+    return found if isinstance(found, Task) else None
 
 
 @lru_cache(maxsize=64)

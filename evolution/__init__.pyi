@@ -55,6 +55,8 @@ from .runs.history import History as History
 from .runs.run import Progress as Progress
 from .runs.run import Watcher as Watcher
 from .runs.storage import DamagedFileError as DamagedFileError
+from .search.ask_tell import Algorithm as Algorithm
+from .search.ask_tell import register_algorithm as register_algorithm
 from .search.config import RunConfig as RunConfig
 from .search.evaluation import Evaluation as Evaluation
 from .search.evaluation import evaluate as evaluate

@@ -19,7 +19,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import Condition, Instruction, Readings, TrialRecord
+from arm2d import Instruction, Readings, TrialRecord
+from arm2d.tasks.task import AnyTask, as_paper, papers_condition
 from evolution.agents.behaviour import Behaviour, record_behaviour
 from evolution.agents.lineage import Lineage, trace_lineage
 from evolution.agents.recording import record_instruction
@@ -78,8 +79,9 @@ class Agent(sources.Agent):
 
     def behaviour(self, *, per_area: int = 20, trial_seed: int = 0) -> Behaviour:
         """Trials of all nine instructions, step by step, with its neurons."""
+        condition = papers_condition(self.condition, "this analysis")
         return record_behaviour(
-            self.genotype, self.condition, self.readings, per_area=per_area, trial_seed=trial_seed
+            self.genotype, condition, self.readings, per_area=per_area, trial_seed=trial_seed
         )
 
     def heat_map(self, *, per_area: int = TRIALS_PER_AREA, trial_seed: int = 0) -> Figure:
@@ -103,8 +105,8 @@ class Run(RunFolder):
         return f"<Run: {config.condition}, seed {config.seed}, {self.path}>"
 
     @property
-    def condition(self) -> Condition:
-        """Which third action is met."""
+    def condition(self) -> AnyTask:
+        """Which third action is met, or a task of one's own."""
         return self.config.condition
 
     @property
@@ -182,7 +184,7 @@ class Run(RunFolder):
         from evolution.figures.run import fitness_curve
 
         origin = f"{self.condition}, seed {self.seed}, {self.generations} generations"
-        return fitness_curve(self.history, origin)
+        return fitness_curve(self.history, origin, self.config.task.largest_fitness)
 
     def _number(self, generation: int) -> int:
         """The number of a generation that may be counted from the end."""
@@ -229,7 +231,7 @@ def find_agent(
     *,
     generation: int | None = None,
     rank: int = 0,
-    condition: Condition | str | None = None,
+    condition: AnyTask | str | None = None,
 ) -> Agent:
     """An agent by what it is called: a run's folder, a genotype file, or a shipped name.
 
@@ -242,5 +244,5 @@ def find_agent(
     Raises:
         ValueError: If there is no such thing, or it is not what it should be.
     """
-    known = Condition.parse(condition) if isinstance(condition, str) else condition
+    known = None if condition is None else as_paper(condition)
     return Agent(**vars(sources.find_agent(str(text), generation=generation, rank=rank, condition=known)))

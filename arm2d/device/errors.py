@@ -13,6 +13,16 @@ class DeviceMemoryError(ValueError):
         )
 
 
+class DeviceTaskError(ValueError):
+    """A task that the device's kernel does not know."""
+
+    def __init__(self, task: object) -> None:
+        super().__init__(
+            f"a device runs the paper's conditions, with-indicate and with-ignore, not {task}; "
+            "leave --device away"
+        )
+
+
 class DeviceLostError(ValueError):
     """A device no longer answers, or not with what was asked for."""
 

@@ -18,7 +18,7 @@ from arm2d.constants import MAX_STEPS
 from arm2d.controller import decode_flat
 from arm2d.device import loop
 from arm2d.device.drives import BEND_ROW
-from arm2d.device.errors import DeviceLostError, DeviceMemoryError
+from arm2d.device.errors import DeviceLostError, DeviceMemoryError, DeviceTaskError
 from arm2d.device.memory import fetched, launched, placed, room
 from arm2d.device.opening import Device
 from arm2d.device.world import worlds_on
@@ -115,6 +115,9 @@ class Laboratory:
     def _run(self, groups: Sequence[Group]) -> Any:
         """What becomes of every trial, still on the device."""
         device, (n_networks, n_trials) = self.device, _shape(groups)
+        for group in groups:
+            if group.trials.task is not None:
+                raise DeviceTaskError(group.trials.task)
         worlds = tuple(dict.fromkeys(group.readings for group in groups))
         rows = np.array([worlds.index(group.readings) for group in groups], np.int32)
         tables, betas = self._tables(worlds)

@@ -64,7 +64,7 @@ class Drives(NamedTuple):
         touch: [4, ROW] by the code of I1, I2.
         camera: [512, ROW] by the code of I3..I11.
         bend: [N_BETA_KEYS, ROW] by the key of beta.
-        words: [4, 3, ROW] by action and object.
+        words: [5, 4, ROW] by action and object; the last of each is none.
     """
 
     touch: Floats
@@ -114,14 +114,16 @@ def _tabulate_camera(weights: Floats, off: float, on: float, j: int, camera: Flo
 
 @compiled(allocates=False)
 def _tabulate_words(weights: Floats, off: float, on: float, j: int, codes: Integers, words: Floats) -> None:
-    """Fill in what each instruction drives in inter-neuron j, object word first."""
-    for action in range(4):
-        for object_ in range(3):
+    """Fill in what each instruction drives in inter-neuron j, object word first; no word is silence."""
+    for action in range(5):
+        for object_ in range(4):
             total = 0.0
             for i in range(3):
-                total += weights[OBJECT_WORD_INPUTS + i, j] * (on if codes[object_, i] else off)
+                heard = object_ < 3 and codes[object_, i] != 0
+                total += weights[OBJECT_WORD_INPUTS + i, j] * (on if heard else off)
             for i in range(3):
-                total += weights[ACTION_WORD_INPUTS + i, j] * (on if codes[3 + action, i] else off)
+                heard = action < 4 and codes[3 + action, i] != 0
+                total += weights[ACTION_WORD_INPUTS + i, j] * (on if heard else off)
             words[action, object_, j] = total
 
 

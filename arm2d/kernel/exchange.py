@@ -22,6 +22,7 @@ class TrialArrays(NamedTuple):
         distance: [T, 3] of the discs from J1 in [cm].
         heard: [T, 2, 2], (action, object) heard before and after the words change.
         delay: [T], steps from the target's coming into view to the change, or NO_CHANGE.
+        word_steps: [T], steps that a word takes where `heard` [T, 3, 2] is one after the other; else 0.
     """
 
     action: Integers
@@ -31,6 +32,7 @@ class TrialArrays(NamedTuple):
     distance: Floats
     heard: Integers
     delay: Integers
+    word_steps: Integers
 
 
 class Outcomes(NamedTuple):

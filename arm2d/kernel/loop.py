@@ -63,7 +63,7 @@ def run_population(
         np.zeros((4, ROW)),
         np.zeros((N_CAMERA_CODES, ROW)),
         np.zeros((N_BETA_KEYS, ROW)),
-        np.zeros((4, N_OBJECTS, ROW)),
+        np.zeros((5, N_OBJECTS + 1, ROW)),
     )
     for p in range(len(networks)):
         tabulate_drives(networks[p], tables.betas, tables.codes, drives)
@@ -85,7 +85,8 @@ def _run_network(
     """Run all trials with one network, N_LANES at a time."""
     s, n, d = lanes
     touch, camera, bend, words = drives
-    n_trials, objects, changing = len(trials.action), trials.object, _any_change(trials.delay)
+    n_trials, objects = len(trials.action), trials.object
+    changing, in_sequence = _any_other(trials.delay, NO_CHANGE), _any_other(trials.word_steps, 0)
     active, waiting = 0, 0
     while active < N_LANES and waiting < n_trials:
         _start(lanes, active, waiting, network, trials, world, words)
@@ -107,6 +108,8 @@ def _run_network(
             remember_stretch(s, n, active, world)
         if changing:
             _change_words(s, n, d, active, trials, world, words)
+        if in_sequence:
+            _say_next_word(n, d, active, trials, words)
         steps += 1
         if score_step(s, n, width, world.keep, world.from_end) == 0:
             continue
@@ -125,11 +128,11 @@ def _run_network(
 
 
 @compiled(allocates=False)
-def _any_change(delays: Integers) -> bool:
-    """Whether the words change in any trial."""
+def _any_other(values: Integers, usual: int) -> bool:
+    """Whether any of the values is another than the usual one."""
     count = 0
-    for delay in delays:
-        count += delay != NO_CHANGE
+    for value in values:
+        count += value != usual
     return count > 0
 
 
@@ -169,6 +172,16 @@ def _change_words(
         if n[at.WAIT + i] == 0:
             n[at.WAIT + i] = at.CHANGED
             _hear(d, i, trials.heard[n[at.TRIAL + i], 1], words)
+
+
+@compiled(allocates=False)
+def _say_next_word(n: Integers, d: Floats, lanes: int, trials: TrialArrays, words: Floats) -> None:
+    """Say the next word, or nothing any more, where the one before has taken its steps."""
+    for i in range(lanes):
+        trial = n[at.TRIAL + i]
+        made, each = n[at.STEP + i] + 1, trials.word_steps[trial]
+        if each > 0 and (made == each or made == 2 * each):
+            _hear(d, i, trials.heard[trial, made // each], words)
 
 
 @compiled(allocates=False)

@@ -21,8 +21,9 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from arm2d.constants import N_INPUTS
-from arm2d.instructions import NON_EXPERIENCED, Condition, Instruction
+from arm2d.instructions import Condition, Instruction
 from arm2d.readings import Readings
+from arm2d.tasks.task import AnyTask, as_paper
 from arm2d.trials import Trials, draw_trials
 from arm2d.video import Panel
 from arm2d.worlds.vector_world import VectorWorld
@@ -34,11 +35,11 @@ Reward = Literal["end", "progress"]
 PICTURE_SIZE: Final = 480  # [pixels]
 
 
-def asked_instructions(condition: Condition, asked: Asked | Sequence[str]) -> tuple[Instruction, ...]:
+def asked_instructions(condition: AnyTask, asked: Asked | Sequence[str]) -> tuple[Instruction, ...]:
     """The instructions that trials are drawn from.
 
     Args:
-        condition: Which nine there are.
+        condition: Which instructions there are.
         asked: The seven experienced ones, the two held out, all nine, or instructions such as "touch red".
 
     Raises:
@@ -47,13 +48,15 @@ def asked_instructions(condition: Condition, asked: Asked | Sequence[str]) -> tu
     if isinstance(asked, str):
         choices = {
             "experienced": condition.experienced,
-            "held-out": NON_EXPERIENCED,
+            "held-out": condition.held_out,
             "all": condition.instructions,
         }
         if asked not in choices:
             raise ValueError(
                 f"asked for {asked!r} instructions; there are {', '.join(choices)}, or a list of them"
             )
+        if not choices[asked]:
+            raise ValueError(f"the task {condition} holds out no instruction; ask for experienced or all")
         return choices[asked]
     return tuple(Instruction.parse(text) for text in asked)
 
@@ -62,23 +65,24 @@ class _Source:
     """What both environments draw trials from."""
 
     def __init__(
-        self, condition: Condition | str, asked: Asked | Sequence[str], readings: Readings | None
+        self, condition: AnyTask | str, asked: Asked | Sequence[str], readings: Readings | None
     ) -> None:
-        self.condition = Condition.parse(condition)
+        self.condition = as_paper(condition)
         self.instructions = asked_instructions(self.condition, asked)
         self.readings = readings or Readings()
 
     def draw(self, n: int, rng: np.random.Generator) -> Trials:
         """N trials, each of any of the instructions and from either start area."""
         chosen = [self.instructions[i] for i in rng.integers(len(self.instructions), size=n)]
-        return draw_trials(chosen, 1, self.readings, rng)[2 * np.arange(n) + rng.integers(2, size=n)]
+        drawn = draw_trials(chosen, 1, self.readings, rng, self.condition)
+        return drawn[2 * np.arange(n) + rng.integers(2, size=n)]
 
 
 class InstructionsEnv(gymnasium.Env):
     """One trial an episode.
 
     Args:
-        condition: "with-indicate" or "with-ignore".
+        condition: "with-indicate", "with-ignore", "with-both", or an `arm2d.Task` of your own.
         instructions: What trials are drawn from: "experienced" (for training), "held-out", "all", or a list.
         readings: How the paper is understood.
         reward: "end", all of F1 + F2 + F3 with the last step, or "progress", what each step adds to it.
@@ -91,7 +95,7 @@ class InstructionsEnv(gymnasium.Env):
 
     def __init__(
         self,
-        condition: Condition | str = Condition.WITH_INDICATE,
+        condition: AnyTask | str = Condition.WITH_INDICATE,
         instructions: Asked | Sequence[str] = "experienced",
         readings: Readings | None = None,
         reward: Reward = "end",
@@ -158,7 +162,7 @@ class InstructionsVectorEnv(VectorEnv):
     def __init__(
         self,
         num_envs: int = 1,
-        condition: Condition | str = Condition.WITH_INDICATE,
+        condition: AnyTask | str = Condition.WITH_INDICATE,
         instructions: Asked | Sequence[str] = "experienced",
         readings: Readings | None = None,
         reward: Reward = "end",

@@ -19,9 +19,10 @@ from arm2d.instructions import Instruction
 from arm2d.kernel import stepping
 from arm2d.kernel.controller import OBJECT_WORD_INPUTS
 from arm2d.kernel.lanes import N_FLOAT_FIELDS, N_INTEGER_FIELDS, N_LANES
-from arm2d.kernel.world import WORD_CODES, tables_of, world_of
+from arm2d.kernel.world import tables_of, world_of
 from arm2d.readings import Readings
-from arm2d.running import arrays_of, empty_outcomes
+from arm2d.running import arrays_of, codes_of, empty_outcomes
+from arm2d.tasks.hearing import phase_after, word_bits
 from arm2d.trials import Trials, TrialScores
 
 _COLOURS: Final = ("blue", "green", "red")
@@ -46,7 +47,7 @@ class VectorWorld:
 
     Args:
         trials: The starts and instructions. Words that change by themselves (`changes`) are refused:
-            here the caller changes them, see `hear`.
+            here the caller changes them, see `hear`. Words that their task has come one after the other do.
         readings: The world; the default readings if none are given.
 
     Attributes:
@@ -73,7 +74,8 @@ class VectorWorld:
             np.zeros((blocks, N_INTEGER_FIELDS * N_LANES), np.int64),
             np.zeros((len(trials), c.N_INPUTS)),
         )
-        self._outcomes = empty_outcomes(1, len(trials))
+        self._outcomes, self._task = empty_outcomes(1, len(trials)), trials.task
+        self._codes = codes_of(trials)
         self._arrays, self._discs = arrays_of(trials), trials.discs.copy()
         # Ours to write on when trials are begun anew.
         self._arrays = self._arrays._make(np.array(array) for array in self._arrays)
@@ -86,7 +88,7 @@ class VectorWorld:
     def trials(self) -> Trials:
         """The starts and instructions of the trials as they are now under way."""
         arrays = self._arrays
-        return Trials(arrays.action, arrays.object, arrays.alpha, self._discs)
+        return Trials(arrays.action, arrays.object, arrays.alpha, self._discs, task=self._task)
 
     @property
     def inputs(self) -> NDArray[np.float64]:
@@ -120,21 +122,27 @@ class VectorWorld:
             self._outcomes,
             row,
         )
+        if self._task is not None and self._task.in_sequence:
+            self._say(np.arange(len(self)))
         return self.inputs
 
     def hear(self, instructions: Instruction | str | list[Instruction | str]) -> None:
         """Change the words heard from the next step on, of all trials or one for each; scored is the old one.
 
         Raises:
-            ValueError: If there are neither one nor N instructions.
+            ValueError: If there are neither one nor N instructions, or words come one after the other.
         """
+        if self._task is not None and self._task.in_sequence:
+            raise ValueError(
+                f"in the task {self._task} words come one after the other; they cannot be changed"
+            )
         heard = instructions if isinstance(instructions, list) else [instructions] * len(self)
         if len(heard) != len(self):
             raise ValueError(f"{len(self)} trials hear one instruction or one each, not {len(heard)}")
         parsed = [Instruction.parse(each) if isinstance(each, str) else each for each in heard]
-        objects = WORD_CODES[[instruction.object for instruction in parsed]]
-        actions = WORD_CODES[[3 + instruction.action for instruction in parsed]]
-        self.inputs[:, OBJECT_WORD_INPUTS:] = np.concatenate([objects, actions], axis=1)
+        actions = np.array([instruction.action for instruction in parsed])
+        objects = np.array([instruction.object for instruction in parsed])
+        self.inputs[:, OBJECT_WORD_INPUTS:] = word_bits(actions, objects, self._codes)
 
     def restart(self, which: ArrayLike, trials: Trials) -> None:
         """Begin some trials anew.
@@ -147,6 +155,8 @@ class VectorWorld:
             ValueError: If there are not as many starts as numbers, or no such trials.
         """
         chosen = np.asarray(which, dtype=np.int64).reshape(-1)
+        if trials.task != self._task:
+            raise ValueError("trials of one task cannot be begun anew as trials of another")
         if len(chosen) != len(trials) or (chosen < 0).any() or (chosen >= len(self)).any():
             raise ValueError(
                 f"a restart takes numbers of trials from 0 to {len(self) - 1} and a start for each, "
@@ -179,9 +189,16 @@ class VectorWorld:
 
     def _start(self, which: NDArray[np.int64]) -> None:
         stepping.start(self._blocks, which, self._arrays, self._world)
-        objects, actions = self._arrays.object[which], self._arrays.action[which]
-        words = np.concatenate([WORD_CODES[objects], WORD_CODES[3 + actions]], axis=1)
-        self.inputs[which, OBJECT_WORD_INPUTS:] = words
+        self._say(which)
+
+    def _say(self, which: NDArray[np.int64]) -> None:
+        """Let trials hear what they should at their step."""
+        heard = self._arrays.heard[which]  # [k, 2 or 3, 2]
+        phase = np.zeros(len(which), np.int64)
+        if self._task is not None:
+            phase = phase_after(self._lane_field(stepping.at.STEP)[which], self._task)
+        action, object_ = heard[np.arange(len(which)), phase].T
+        self.inputs[which, OBJECT_WORD_INPUTS:] = word_bits(action, object_, self._codes)
 
     def _lane_field(self, field: int) -> NDArray[np.int64]:
         """[N], a whole-number field of the trials' lanes."""

@@ -19,6 +19,7 @@ from arm2d.instructions import Instruction
 from arm2d.kernel import exchange
 from arm2d.readings import Readings
 from arm2d.running import record_of
+from arm2d.tasks.task import Task
 from arm2d.trials import TrialRecord, Trials, TrialScores, draw_trials
 from arm2d.worlds.vector_world import VectorWorld
 
@@ -28,10 +29,11 @@ class World:
 
     Args:
         readings: How the paper is understood; the default readings if none are given.
+        task: How words are said and where colours stand, if not as in the paper.
     """
 
-    def __init__(self, readings: Readings | None = None) -> None:
-        self.readings = readings or Readings()
+    def __init__(self, readings: Readings | None = None, task: Task | None = None) -> None:
+        self.readings, self.task = readings or Readings(), task
         self._vector: VectorWorld | None = None
         self._rows: list[NDArray[np.float64]] = []
         self._inputs: list[NDArray[np.float64]] = []
@@ -56,10 +58,11 @@ class World:
         words = Instruction.parse(instruction) if isinstance(instruction, str) else instruction
         if start is None:
             rng = np.random.default_rng(seed)
-            start = draw_trials([words], 1, self.readings, rng)[int(rng.integers(2))]
+            start = draw_trials([words], 1, self.readings, rng, self.task)[int(rng.integers(2))]
         elif seed is not None or len(start) != 1:
             raise ValueError("give either a seed or a start of exactly one trial")
-        trial = Trials(np.array([words.action]), np.array([words.object]), start.alpha, start.discs)
+        asked = np.array([words.action]), np.array([words.object])
+        trial = Trials(*asked, start.alpha, start.discs, task=start.task or self.task)
         self._vector, self._rows, self._inputs = VectorWorld(trial, self.readings), [], []
         return self.inputs
 

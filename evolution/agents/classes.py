@@ -97,7 +97,7 @@ def observe(run: RunFolder, sampling: Sampling = Sampling()) -> Observation:
     if observation_path(run, sampling).exists():
         return read_observation(run, sampling)
     evaluation = POST_EVALUATION.read(run)
-    by_class = classify(evaluation.agents, run.config.condition)
+    by_class = classify(evaluation.agents, run.config.papers_condition)
     members = np.stack([by_class[kind] for kind in CLASSES]).reshape(len(CLASSES), -1, N_BEST)
     genotypes = late_history(run).best_genotypes if members.any() else np.empty((*members.shape[1:], 84))
     chosen = _chosen(members, genotypes, sampling)
@@ -180,7 +180,7 @@ def _chosen(
 
 def _measure(run: RunFolder, genotype: NDArray[np.float64], sampling: Sampling) -> tuple[NDArray, ...]:
     """Intact and lesioned success, shares of variance in windows and over time, of one agent."""
-    world = (genotype, run.config.condition, run.config.readings)
+    world = (genotype, run.config.papers_condition, run.config.readings)
     trials = {"per_area": sampling.per_area, "trial_seed": sampling.trial_seed}
     lesions = lesion_scores(*world, **trials)
     shares = shares_by_event(record_behaviour(*world, **trials))

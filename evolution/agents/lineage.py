@@ -82,6 +82,11 @@ def trace_lineage(folder: RunFolder, generation: int | None = None, rank: int = 
         raise ValueError(f"rank {rank} does not exist; the generation has ranks 0 to {n_genotypes - 1}")
     history = history[: last + 1]
     order = ranking(history.fitness[-1], folder.config.readings)
+    if last > 0 and (history.parents[-1] < 0).all():
+        raise ValueError(
+            f"{folder.path} has no lines of ancestors: its algorithm, {folder.config.settings.algorithm}, "
+            "draws genotypes from what it has learnt, not from parents"
+        )
     indices = ancestor_indices(history.parents, int(order[rank]))
     genotypes = _breed_line(folder, history, indices)
     copied = np.all(genotypes[1:] == genotypes[:-1], axis=1)

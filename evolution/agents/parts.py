@@ -50,11 +50,13 @@ class LateTest(Generic[T]):
             report: Told after every part how many of how many are done.
 
         Raises:
-            ValueError: If the run is not finished, or lacks another test that this one rests on.
+            ValueError: If the run is not finished, is of another task than the paper's, or lacks another test
+                that this one rests on.
             DamagedFileError: If a part of the run, or of the results, is damaged.
         """
         if len(run.finished_spans()) < len(run.spans):
             raise ValueError(f"{run.path} is not finished; go on with: wordarm evolve")
+        _ = run.config.papers_condition  # refuses other tasks, before anything is written
         make_folder(run.path / self.folder)
         spans = late_spans(run)
         for done, span in enumerate(spans, 1):

@@ -29,5 +29,6 @@ def record_instruction(
             f"{agent.condition} has no instruction {instruction}; "
             f"it has {', '.join(str(word) for word in known)}"
         )
-    trials = draw_trials([instruction], 1, agent.readings, generator(trial_seed, Purpose.RECORDING))
+    rng = generator(trial_seed, Purpose.RECORDING)
+    trials = draw_trials([instruction], 1, agent.readings, rng, agent.condition)
     return record_trial(agent.genotype, trials[("right", "left").index(start_area)], agent.readings)

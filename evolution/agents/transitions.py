@@ -152,7 +152,7 @@ def transition_results(
     run: RunFolder, span: range, carry_out: Callable[..., TrialScores] = run_trials
 ) -> TransitionTest:
     """The classed agents of some generations, tested; those of a generation meet the same trials."""
-    condition, readings = run.config.condition, run.config.readings
+    condition, readings = run.config.papers_condition, run.config.readings
     actions, objects = action_transitions(condition), object_transitions(condition)
     evaluated = POST_EVALUATION.read_part(run, span).successes
     tests = []
@@ -176,7 +176,7 @@ def transition_results(
 
 def _check(path: Path, arrays: Mapping[str, NDArray], run: RunFolder, span: range) -> None:
     """Refuse arrays that no transition test gives."""
-    condition = run.config.condition
+    condition = run.config.papers_condition
     n = np.size(arrays.get("generations", ()))
     shapes = {
         "generations": ((n,), np.int32),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from tyro.conf import Positional, arg
 
-from arm2d import Condition
+from arm2d.tasks.task import as_paper
 
 if TYPE_CHECKING:
     from evolution.runs.folder import RunFolder
@@ -30,19 +30,19 @@ class AgentCommand:
     """0 is the best of the generation, of the champions, or of the file."""
 
     condition: str | None = None
-    """Condition of a bare genotype file: with-indicate (the default) or with-ignore."""
+    """Condition of a bare genotype file: with-indicate (the default), with-ignore or with-both."""
 
     def find_agent(self) -> Agent:
         """The agent's genotype and its world."""
         from evolution.runs.sources import find_agent
 
-        condition = None if self.condition is None else Condition.parse(self.condition)
+        condition = None if self.condition is None else as_paper(self.condition)
         return find_agent(self.source, generation=self.generation, rank=self.rank, condition=condition)
 
 
 @dataclass(frozen=True)
 class Evaluate(AgentCommand):
-    """Let an agent carry out all nine instructions: a table, a heat map and, for a run, its fitness."""
+    """Let an agent carry out all instructions: a table, a heat map and, for a run, its fitness."""
 
     trials_per_area: int = 40
     """Trials of each instruction from each of the two start areas."""
@@ -104,4 +104,5 @@ def _write_fitness_curve(run_folder: RunFolder, output: Path) -> list[Path]:
     history = recorded_history(run_folder)
     config = run_folder.config
     origin = f"{config.condition}, seed {config.seed}, {len(history)} generations"
-    return save_figure(fitness_curve(history, origin), output / "fitness")
+    figure = fitness_curve(history, origin, config.task.largest_fitness)
+    return save_figure(figure, output / "fitness")

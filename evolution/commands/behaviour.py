@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from tyro.conf import Positional, arg
 
+from arm2d.tasks.task import papers_condition
 from evolution.commands.agent import AgentCommand
 
 if TYPE_CHECKING:
@@ -90,7 +91,8 @@ class BehaviourCommand(AgentCommand):
         from evolution.agents.variance import shares_by_event
 
         source = self.find_agent()
-        world = (source.genotype, source.condition, source.readings)
+        condition = papers_condition(source.condition, "this analysis")
+        world = (source.genotype, condition, source.readings)
         per_area = OF_AN_AGENT if self.trials_per_area is None else self.trials_per_area
         trials = {"per_area": per_area, "trial_seed": self.trial_seed}
         behaviour = record_behaviour(*world, **trials)

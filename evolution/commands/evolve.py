@@ -9,7 +9,8 @@ from typing import Annotated, Self
 
 from tyro.conf import arg
 
-from arm2d import Condition, Readings
+from arm2d import Readings
+from arm2d.tasks.task import AnyTask, read_task
 from evolution.answers import INTERRUPTED
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
@@ -26,6 +27,31 @@ class UncheckedReadings(Readings):
     def checked(self) -> Readings:
         """The same readings, refused if impossible."""
         return Readings.from_mapping(asdict(self))
+
+
+@dataclass(frozen=True)
+class TaskOptions:
+    """What is asked and how it is said, where it is not as in the paper (docs/how-to/task.md)."""
+
+    held_out: tuple[str, ...] | None = None
+    """Instructions never met in evolution. By default "move blue" and "touch green", as in the paper."""
+
+    codes: tuple[str, ...] = ()
+    """How words are heard if not as in the paper: a word and three bits, such as "ignore 111"."""
+
+    words: str = "together"
+    """together throughout the trial, or one after the other, then silence: object-first, action-first."""
+
+    word_steps: int = 10
+    """Steps of 0.1 s that each word takes if they come one after the other."""
+
+    places: str = "own"
+    """own: every colour has a sector of its own; dealt: they are dealt anew to the sectors in each trial."""
+
+    def with_condition(self, condition: str) -> AnyTask:
+        """The task that is asked for; raises `ValueError` if it makes no sense."""
+        given = {name: value for name, value in vars(self).items() if value != getattr(TaskOptions, name)}
+        return read_task(condition, given)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +78,9 @@ class Evolve(FromPreset):
     """
 
     condition: str = "with-indicate"
-    """Which third action is met beside MOVE and TOUCH: with-indicate or with-ignore."""
+    """Which third action is met beside MOVE and TOUCH: with-indicate, with-ignore or with-both."""
+
+    task: TaskOptions = TaskOptions()
 
     seed: int = 1
     """All random numbers of the run follow from it."""
@@ -68,8 +96,8 @@ class Evolve(FromPreset):
     @property
     def config(self) -> RunConfig:
         """The run that is asked for."""
-        condition = Condition.parse(self.condition)
-        return RunConfig(condition, self.seed, self.settings, self.readings.checked())
+        task = self.task.with_condition(self.condition)
+        return RunConfig(task, self.seed, self.settings, self.readings.checked())
 
     def run(self) -> int:
         """Evolve; the exit code is 130 if the run was stopped before its end."""
@@ -118,4 +146,4 @@ def default_folder(experiment: str, config: RunConfig) -> Path:
         raise ValueError(
             f"experiment {experiment!r} would lie outside runs/; give a name, or any folder with --output"
         )
-    return Path("runs") / experiment / config.condition / f"seed-{config.seed:04d}"
+    return Path("runs") / experiment / str(config.condition) / f"seed-{config.seed:04d}"

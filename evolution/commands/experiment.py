@@ -70,6 +70,8 @@ class ExperimentCommand:
             return self.cluster.show_script(plan.folder) if self.cluster.slurm else 0
         with self.cluster.opened(plan.folder, console) as elsewhere:
             shares = device_shares(self.device, spec.jobs, elsewhere.threads() if elsewhere else None)
+            if shares:
+                shares.check(plan.configs)
             make_folder(plan.folder)
             with locked(plan.folder), StopRequest() as stop:
                 at_once_there = elsewhere.threads() if elsewhere else at_once

@@ -50,13 +50,13 @@ class LineageCommand:
         folder = RunFolder.open(self.folder)
         if self.trials_per_area < 1:
             raise ValueError(f"asked for {self.trials_per_area} trials per area; there must be at least 1")
-        console = Console()
+        console, condition = Console(), folder.config.papers_condition
         lineage = trace_lineage(folder, self.generation, self.rank)
         with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
             task = bar.add_task("ancestors")
             scores = score_lineage(
                 lineage,
-                folder.config.condition,
+                condition,
                 folder.config.readings,
                 per_area=self.trials_per_area,
                 trial_seed=self.trial_seed,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Final, Literal
 from tyro.conf import Positional, arg
 
 from arm2d import Instruction
+from arm2d.tasks.task import papers_condition
 from evolution.commands.agent import AgentCommand
 
 if TYPE_CHECKING:
@@ -103,7 +104,8 @@ class Port(AgentCommand):
         from mujoco_port.film.physical_port import port_physical_gallery
         from mujoco_port.film.port import port_gallery
 
-        records = [self._record(source, instruction) for instruction in source.condition.instructions]
+        condition = papers_condition(source.condition, "the gallery of nine")
+        records = [self._record(source, instruction) for instruction in condition.instructions]
         output = self._place(source, "gallery")
         carried_out = sum(record.success for record in records)
         title = f"{source.name}: nine instructions, two of them never met; {carried_out} carried out"

@@ -139,12 +139,14 @@ class Agree:
 
 def candidate(name: str) -> Candidate:
     """Whom to try, by what the user calls it."""
+    from arm2d.tasks.task import papers_condition
     from evolution.runs.sources import find_agent
     from mujoco_port.acting.agreement import Candidate
 
     agent = find_agent(name)
     home = "" if agent.folder is None else f"{agent.condition}/{agent.folder.path.name}/"
-    return Candidate(home + agent.name, agent.genotype, agent.condition.instructions, agent.readings)
+    condition = papers_condition(agent.condition, "the agreement of robot and plane")
+    return Candidate(home + agent.name, agent.genotype, condition.instructions, agent.readings)
 
 
 @dataclass(frozen=True, kw_only=True)

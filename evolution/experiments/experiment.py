@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from arm2d import Condition, Readings
+from arm2d.tasks.task import papers_condition
 from evolution.runs.folder import CONFIG, RunFolder
 from evolution.search.config import RunConfig
 
@@ -82,6 +83,12 @@ def open_experiment(path: Path | str) -> Experiment:
         )
     by_condition = {c: tuple(run for run in runs if run.config.condition is c) for c in Condition}
     shown = {c: runs for c, runs in by_condition.items() if runs}
+    others = [run for run in runs if not isinstance(run.config.condition, Condition)]
+    if not shown:
+        papers_condition(others[0].config.condition, "this analysis")
+    unreadable += [
+        f"{run.path} is of the task {run.config.condition}, which is not analysed" for run in others
+    ]
     return Experiment(path, shown, tuple(unreadable), tuple(copies))
 
 
@@ -121,4 +128,6 @@ def _without_copies(runs: Iterable[RunFolder]) -> tuple[list[RunFolder], list[st
 
 def _has_its_own_name(run: RunFolder) -> bool:
     """Whether a run lies where it was made, rather than where it was copied."""
-    return run.path.name == f"seed-{run.config.seed:04d}" and run.path.parent.name == run.config.condition
+    return run.path.name == f"seed-{run.config.seed:04d}" and run.path.parent.name == str(
+        run.config.condition
+    )

@@ -15,13 +15,15 @@ from pathlib import Path
 from typing import Any, Final
 
 from arm2d import Condition, Readings
+from arm2d.tasks.task import AnyTask, as_paper, papers_condition, read_task
 from evolution.experiments.spec import ExperimentSpec, check_size, read_seeds
 from evolution.experiments.variants import Variant, check_name, value_name
 from evolution.search.settings import Settings
 from evolution.search.toml import check_keys, one_of_kind, read_toml, table_of
 
 KEYS: Final = (
-    "output", "jobs", "conditions", "seeds", "preset", "post_evaluate", "settings", "readings", "variant",
+    "output", "jobs", "conditions", "task", "seeds", "preset", "post_evaluate", "settings", "readings",
+    "variant",
 )  # fmt: skip
 VARIANT_KEYS: Final = ("name", "settings", "readings")
 LARGEST_FILE: Final = 1_000_000  # [bytes]
@@ -51,9 +53,14 @@ def experiment_from_mapping(values: Mapping[str, Any], output: Path) -> Experime
         ValueError: As `read_experiment`.
     """
     check_keys("key", values, KEYS)
+    conditions = _conditions(values.get("conditions", ["with-indicate"]))
+    tasks = _tasks(conditions, table_of("task", values.get("task", {})))
+    if values.get("post_evaluate") is True:
+        for task in tasks:
+            papers_condition(task, "post_evaluate = true")
     spec = ExperimentSpec(
         _output(values.get("output"), output),
-        _conditions(values.get("conditions", ["with-indicate"])),
+        tasks,
         read_seeds(values.get("seeds", 1)),
         dict(_variants(values)),
         one_of_kind("post_evaluate", values.get("post_evaluate", False), bool),
@@ -88,16 +95,39 @@ def _output(value: Any, default: Path) -> Path:
     return path
 
 
-def _conditions(value: Any) -> tuple[Condition, ...]:
-    """One condition or several."""
+def _conditions(value: Any) -> list[str]:
+    """One condition or several, by name."""
     given = [value] if isinstance(value, str) else value
     if not isinstance(given, list) or not given or not all(isinstance(each, str) for each in given):
         raise ValueError(
             f"conditions = {value!r} must be a list of {' and '.join(map(str, Condition))}, or one of them"
         )
-    conditions = tuple(Condition.parse(each) for each in given)
-    _refuse_twice("conditions", [str(each) for each in conditions])
-    return conditions
+    _refuse_twice("conditions", [str(as_paper(each)) for each in given])
+    return given
+
+
+def _tasks(conditions: Sequence[str], table: Mapping[str, Any]) -> tuple[AnyTask, ...]:
+    """Every combination of conditions and of what [task] says of each; a list in a list is a grid."""
+    grids = {name: _task_options(name, value) for name, value in table.items()}
+    if prod(map(len, grids.values())) > MOST_VARIANTS:
+        raise ValueError(f"[task] has more than {MOST_VARIANTS:,} combinations")
+    tasks = [
+        read_task(condition, dict(zip(grids, chosen, strict=True)))
+        for chosen in product(*grids.values())
+        for condition in conditions
+    ]
+    _refuse_twice("[task]", [str(each) for each in tasks])
+    return tuple(tasks)
+
+
+def _task_options(name: str, value: Any) -> list[Any]:
+    """The values of one part of a task. For `held_out` and `codes` one is a list already."""
+    is_grid = isinstance(value, list)
+    if name in ("held_out", "codes"):
+        is_grid = is_grid and bool(value) and all(isinstance(each, list) for each in value)
+    if is_grid and not value:
+        raise ValueError(f"{name} = [] is an empty grid; give at least one value, or leave it out")
+    return value if is_grid else [value]
 
 
 def _variants(values: Mapping[str, Any]) -> Iterator[tuple[Variant, str | None]]:

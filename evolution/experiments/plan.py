@@ -58,7 +58,7 @@ class Plan:
 
     def path(self, config: RunConfig) -> Path:
         """The folder of a run."""
-        return self.folder / self.variant_folder(config) / config.condition / f"seed-{config.seed:04d}"
+        return self.folder / self.variant_folder(config) / str(config.condition) / f"seed-{config.seed:04d}"
 
     def run_name(self, config: RunConfig) -> str:
         """A run's name for people: variant, if there are several, condition and seed."""

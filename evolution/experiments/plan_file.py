@@ -13,8 +13,9 @@ from typing import Any, Final
 
 import tomli_w
 
-from arm2d import Condition, Readings
+from arm2d import Readings
 from arm2d.files import NoFileError, read_file
+from arm2d.tasks.task import read_task
 from evolution.experiments.experiment import open_experiment
 from evolution.experiments.plan import Plan
 from evolution.experiments.standing import Standing, standing_of
@@ -53,7 +54,8 @@ def plan_text(plan: Plan) -> str:
     tables = [
         {
             "name": plan.variants[Variant.of(shared)],
-            "condition": str(shared.condition),
+            "condition": shared.task.condition_name,
+            **({"task": special} if (special := shared.task.to_mapping()) else {}),
             "seeds": found,
             "settings": shared.settings.to_mapping(),
             "readings": shared.readings.to_mapping(),
@@ -93,7 +95,7 @@ def _plan_of(folder: Path, values: dict[str, Any]) -> Plan:
     configs, names = [], {}
     for table in values["runs"]:
         base = RunConfig(
-            Condition.parse(table["condition"]),
+            read_task(table["condition"], table.get("task")),
             0,
             Settings.from_mapping(table["settings"]),
             Readings.from_mapping(table["readings"]),

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
-from arm2d import Condition
+from arm2d.tasks.task import AnyTask
 from evolution.experiments.plan import Plan
 from evolution.experiments.variants import Variant, check_name
 from evolution.search.config import SEED_LIMIT, RunConfig
@@ -26,7 +26,7 @@ class ExperimentSpec:
 
     Attributes:
         output: Folder of the experiment.
-        conditions: Which third action is met.
+        conditions: Which third action is met, or tasks of one's own.
         seeds: Of the runs.
         variants: What is compared, with the names of those that have one.
         post_evaluate: Whether the paper's two tests follow evolution.
@@ -34,7 +34,7 @@ class ExperimentSpec:
     """
 
     output: Path
-    conditions: tuple[Condition, ...]
+    conditions: tuple[AnyTask, ...]
     seeds: tuple[int, ...]
     variants: Mapping[Variant, str | None]
     post_evaluate: bool = False

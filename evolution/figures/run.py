@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
-from arm2d import ActionWord, ObjectWord
+from arm2d import ObjectWord
 from arm2d.drawing import COLUMN, HEADING, OBJECT_COLOURS, SMALL, STYLE, look
 from evolution.figures.page import (
     FAINT,
@@ -44,12 +44,13 @@ def heat_map(evaluation: Evaluation, origin: str = "") -> Figure:
 
 def draw_heat_map(axes: Axes, evaluation: Evaluation) -> None:
     """Action words by object words: success in per cent, with counts; never-met ones are dashed."""
-    counts = evaluation.successes[0].sum(axis=-1).reshape(3, 3)
+    actions = list(dict.fromkeys(each.action for each in evaluation.condition.instructions))
+    rows = len(actions)
+    counts = evaluation.successes[0].sum(axis=-1).reshape(rows, 3)
     shares = counts / evaluation.trials
     axes.imshow(shares, cmap=SUCCESS_MAP, vmin=0.0, vmax=1.0, aspect="auto")
     axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False, pad=4)
-    actions = (ActionWord.MOVE, ActionWord.TOUCH, evaluation.condition.third_action)
-    axes.set_yticks(range(3), [word.name for word in actions], fontsize=HEADING)
+    axes.set_yticks(range(rows), [word.name for word in actions], fontsize=HEADING)
     axes.set_xticks(
         range(3), [word.name.capitalize() for word in ObjectWord], fontsize=HEADING, fontweight="bold"
     )
@@ -57,7 +58,7 @@ def draw_heat_map(axes: Axes, evaluation: Evaluation) -> None:
         label.set_color(colour)
     for edge in axes.spines.values():
         edge.set_visible(False)
-    for row, column in np.ndindex(3, 3):
+    for row, column in np.ndindex(rows, 3):
         never_met = not evaluation.experienced[3 * row + column]
         _draw_cell(axes, row, column, counts[row, column], evaluation.trials, never_met)
 
@@ -78,31 +79,36 @@ def _draw_cell(axes: Axes, row: int, column: int, count: int, trials: int, never
         axes.add_patch(frame)
 
 
-def fitness_curve(history: History, origin: str = "") -> Figure:
+def fitness_curve(history: History, origin: str = "", largest: float = LARGEST_FITNESS) -> Figure:
     """A page with the fitness of a run over its generations."""
     with look(STYLE):
         figure = Figure(figsize=(COLUMN, 2.45))
         axes = figure.add_axes((0.115, 0.145, 0.865, 0.635))
-        draw_fitness_curve(axes, history)
+        draw_fitness_curve(axes, history, largest)
         head(figure, "Fitness over the generations", origin)
     return figure
 
 
-def draw_fitness_curve(axes: Axes, history: History) -> None:
+def draw_fitness_curve(axes: Axes, history: History, largest: float = LARGEST_FITNESS) -> None:
     """Best and mean fitness per generation, their running median, and the largest fitness possible."""
     generations = history.generations
-    axes.axhline(LARGEST_FITNESS, color=FAINT, linewidth=0.8, linestyle=PAPER_DASHES)
+    axes.axhline(largest, color=FAINT, linewidth=0.8, linestyle=PAPER_DASHES)
     for name, values, colour in (("best", history.best, BEST_COLOUR), ("mean", history.mean, MEAN_COLOUR)):
         axes.plot(generations, values, color=colour, linewidth=0.4, alpha=0.35)
         axes.plot(generations, running_median(values), color=colour, linewidth=1.3, label=name)
-    axes.set(xlabel="generation", ylabel="fitness, mean of 28 trials", ylim=(0.0, 1.1 * LARGEST_FITNESS))
+    axes.set(xlabel="generation", ylabel=_fitness_label(largest), ylim=(0.0, 1.1 * largest))
     axes.set_xlim(generations[0], max(generations[-1], generations[0] + 1))
     handles = [
         *axes.get_legend_handles_labels()[0],
         Line2D([], [], color=FAINT, lw=0.4, label="thin: every generation"),
-        Line2D([], [], color=FAINT, lw=0.8, ls=PAPER_DASHES, label=f"the largest, {LARGEST_FITNESS:.3f}"),
+        Line2D([], [], color=FAINT, lw=0.8, ls=PAPER_DASHES, label=f"the largest, {largest:.3f}"),
     ]
     axes.legend(handles=handles, loc="lower right")
+
+
+def _fitness_label(largest: float) -> str:
+    """What the paper's fitness is a mean of; other tasks have other trials."""
+    return "fitness, mean of 28 trials" if largest == LARGEST_FITNESS else "fitness"
 
 
 def running_median(values: NDArray[np.float64], width: int = 51) -> NDArray[np.float64]:

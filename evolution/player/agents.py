@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Final
 
+from arm2d.tasks.task import papers_condition
 from evolution.runs.sources import Agent
 from evolution.search.evaluation import evaluate
 
@@ -27,7 +28,8 @@ INTRODUCTIONS: Final = {
 def agent_for_page(source: Agent) -> dict[str, Any]:
     """An agent with its introduction, tested as `wordarm evaluate` does."""
     name, note = INTRODUCTIONS.get(source.name, (source.name.replace("-", " ").capitalize(), source.origin))
-    tested = evaluate(source.genotype, source.condition, source.readings)
+    condition = papers_condition(source.condition, "the page to play with")
+    tested = evaluate(source.genotype, condition, source.readings)
     return described(source, name, note, tested.successes[0].sum(axis=-1).tolist())
 
 

@@ -12,8 +12,11 @@ from evolution.runs.folder import META
 
 def settings_rows(results: Results) -> list[tuple[str, str]]:
     """Settings of the algorithm, with all values that occur."""
-    mappings = [run.config.settings.to_mapping() for run in results.experiment.all_runs]
-    return [(name, ", ".join(sorted({str(settings[name]) for settings in mappings}))) for name in mappings[0]]
+    found: dict[str, set[str]] = {}
+    for run in results.experiment.all_runs:
+        for name, value in run.config.settings.to_mapping().items():
+            found.setdefault(name, set()).add(str(value))
+    return [(name, ", ".join(sorted(values))) for name, values in found.items()]
 
 
 def readings_rows(readings: Readings) -> list[tuple[str, str, bool]]:

@@ -10,7 +10,7 @@ from evolution.report.tables import runs_with_generalisers
 from evolution.results import published
 from evolution.results.records import ConditionResults, Results
 from evolution.results.wording import TITLES, of, p_value, percent
-from evolution.search.settings import LARGEST_FITNESS, Settings
+from evolution.search.settings import GENETIC, LARGEST_FITNESS, Settings
 
 # A difference whose p-value is smaller is called one.
 LEVEL = 0.05
@@ -38,12 +38,13 @@ def departures_in_size(results: Results) -> list[str]:
     settings = {run.config.settings for run in results.experiment.all_runs}
     paper = Settings().to_mapping()
     for own in settings:
-        ours = own.to_mapping()
         sentences += [
-            f"{name.replace('_', ' ')} {ours[name]:,}, not {paper[name]:,}"
-            for name in paper
-            if ours[name] != paper[name]
+            f"{name.replace('_', ' ')} {value:,}, not {paper[name]:,}"
+            for name, value in own.to_mapping().items()
+            if name in paper and value != paper[name]
         ]
+        if own.algorithm != GENETIC:
+            sentences.append(f"searched for by {own.algorithm}, not by the paper's genetic algorithm")
     for condition, found in results.conditions.items():
         n = len(found.runs)
         if n != published.RUNS:

@@ -1,6 +1,7 @@
 """Every genotype of every generation again, from seeds and recorded fitness, without a trial.
 
-Only five genotypes of each generation are kept in files; the others are bred anew, bit by bit.
+Only five genotypes of each generation are kept in files. The run's algorithm is told the recorded fitness and
+asks for the others again, bit by bit.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from evolution.search.settings import N_BEST
 
 
 class ContradictionError(ValueError):
-    """A history cannot have come from its run: breeding its genotypes again gives others."""
+    """A history cannot have come from its run: its algorithm asks for other genotypes."""
 
 
 def replay(population: Population, history: History, config: RunConfig) -> Population:

@@ -22,6 +22,7 @@ from evolution.runs.lock import Hold, locked
 from evolution.runs.replay import replay_part
 from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.algorithm import mean_in_order
+from evolution.search.ask_tell import maker_of
 from evolution.search.config import RunConfig
 from evolution.search.population import Population, first_population, next_population
 from evolution.search.scoring import score_population
@@ -78,7 +79,8 @@ def evolve(path: Path, config: RunConfig, watcher: Watcher | None = None) -> int
         How many generations are scored: all of `config.settings.generations` unless stopped.
 
     Raises:
-        ValueError: If the folder holds something else, a damaged part, or is in use.
+        ValueError: If the folder holds something else, a damaged part, or is in use, or the algorithm is not
+            known.
         OSError: If it cannot be written; what was written before stays whole.
     """
     with closing(evolving(path, config, watcher)) as run:
@@ -95,6 +97,7 @@ def evolving(
 ) -> Generator[Population, NDArray[np.float64], int]:
     """The same for a caller who scores: yields generation after generation, and is sent its fitness [P]."""
     watcher = watcher or Watcher()
+    maker_of(config)  # refuses an algorithm that is not known, before anything is written
     refuse_other(path, config)
     make_folder(path)
     with locked(path) as hold:

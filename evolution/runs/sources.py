@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, check_genotypes
+from arm2d.tasks.task import AnyTask
 from evolution.runs.arrays import read_genotype_file
 from evolution.runs.folder import CHAMPIONS, RunFolder
 from evolution.runs.recorded import recorded_generation, recorded_histories
@@ -29,7 +30,7 @@ class Agent:
 
     Attributes:
         genotype: [84].
-        condition: Whose instructions it hears.
+        condition: Whose instructions it hears, or a task of one's own.
         readings: The world it evolved in.
         origin: Where it comes from, for people.
         name: The same, fit for a file name.
@@ -37,7 +38,7 @@ class Agent:
     """
 
     genotype: NDArray[np.float64]
-    condition: Condition
+    condition: AnyTask
     readings: Readings
     origin: str
     name: str
@@ -48,7 +49,7 @@ class Agent:
 
 
 def find_agent(
-    text: str, *, generation: int | None = None, rank: int = 0, condition: Condition | None = None
+    text: str, *, generation: int | None = None, rank: int = 0, condition: AnyTask | None = None
 ) -> Agent:
     """The genotype that a user means.
 
@@ -107,7 +108,7 @@ def _of_generation(folder: RunFolder, generation: int, rank: int) -> NDArray[np.
     return population_at(folder, generation).genotypes[order[rank]]
 
 
-def _from_file(path: Path, rank: int, condition: Condition | None) -> Agent:
+def _from_file(path: Path, rank: int, condition: AnyTask | None) -> Agent:
     """A genotype of a file, with the config it carries or, if it carries none, the default readings."""
     arrays = read_genotype_file(path)
     if "config" not in arrays:
@@ -150,7 +151,7 @@ def _describe(config: RunConfig, generation: int, rank: int) -> str:
     return f"{config.condition}, seed {config.seed}, generation {generation}, rank {rank}"
 
 
-def _of_known_condition(agent: Agent, condition: Condition | None) -> Agent:
+def _of_known_condition(agent: Agent, condition: AnyTask | None) -> Agent:
     """Refuse another condition than the agent's own."""
     if condition not in (None, agent.condition):
         raise ValueError(

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any, Final
 
 import tomli_w
 
-from arm2d import Condition, Readings
+from arm2d import Condition, Readings, Task
+from arm2d.tasks.task import AnyTask, as_paper, papers_condition, read_task, task_of
 from evolution.search.settings import Settings
-from evolution.search.toml import read_toml
+from evolution.search.toml import read_toml, table_of
 
 # Raised when an older reader could misunderstand the file.
 FORMAT: Final = 1
 HEADING: Final = "# Everything that determines the result of this run. Its files are bound to these bytes.\n"
 SEED_LIMIT: Final = 2**63
-KNOWN_KEYS: Final = ("format", "condition", "seed", "settings", "readings")
+KNOWN_KEYS: Final = ("format", "condition", "seed", "task", "settings", "readings")
 
 
 @dataclass(frozen=True)
@@ -24,21 +25,32 @@ class RunConfig:
     """One run: which instructions, which chance, which algorithm, which world.
 
     Attributes:
-        condition: Which third action is met; its name, such as "with-ignore", will do.
+        condition: Which third action is met; its name, such as "with-ignore", will do. Or a task of your own
+            (`arm2d.Task`); one that is the paper's is kept as its condition.
         seed: All of the run's random numbers follow from it.
         settings: The genetic algorithm.
         readings: How the paper is understood.
     """
 
-    condition: Condition = Condition.WITH_INDICATE
+    condition: AnyTask = Condition.WITH_INDICATE
     seed: int = 1
     settings: Settings = field(default_factory=Settings)
     readings: Readings = field(default_factory=Readings)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "condition", Condition.parse(self.condition))
+        object.__setattr__(self, "condition", as_paper(self.condition))
         if not isinstance(self.seed, int) or isinstance(self.seed, bool) or not 0 <= self.seed < SEED_LIMIT:
             raise ValueError(f"seed = {self.seed!r} must be a whole number from 0 to 2**63 - 1")
+
+    @property
+    def task(self) -> Task:
+        """The condition as a task, or the task that stands in its place."""
+        return task_of(self.condition)
+
+    @property
+    def papers_condition(self) -> Condition:
+        """The condition, for what is made for the paper's two; raises `ValueError` of another task."""
+        return papers_condition(self.condition, "this analysis")
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, Any]) -> RunConfig:
@@ -54,7 +66,7 @@ class RunConfig:
         if not isinstance(values["condition"], str):
             raise ValueError(f"condition = {values['condition']!r} must be one of {', '.join(Condition)}")
         return cls(
-            Condition.parse(values["condition"]),
+            read_task(values["condition"], table_of("task", values.get("task", {}))),
             values["seed"],
             Settings.from_mapping(settings),
             Readings.from_mapping(readings),
@@ -73,11 +85,18 @@ class RunConfig:
         """Every value in plain form."""
         return {
             "format": FORMAT,
-            "condition": str(self.condition),
+            "condition": self.task.condition_name,
             "seed": self.seed,
+            **({"task": special} if (special := self.task.to_mapping()) else {}),
             "settings": self.settings.to_mapping(),
             "readings": self.readings.to_mapping(),
         }
+
+    def _all_values(self) -> dict[str, Any]:
+        """Every value of every field, those included that files leave unsaid."""
+        values = {**self.to_mapping(), "condition": str(self.condition), "settings": asdict(self.settings)}
+        values.pop("task", None)  # the condition's name tells it
+        return values
 
     def to_toml(self) -> str:
         """The text of config.toml; reading it back gives this record."""
@@ -85,7 +104,7 @@ class RunConfig:
 
     def differences(self, other: RunConfig) -> list[str]:
         """What is otherwise in `other`, such as "seed = 3, not 4"; empty if they are the same run."""
-        mine, others = _flatten(self.to_mapping()), _flatten(other.to_mapping())
+        mine, others = _flatten(self._all_values()), _flatten(other._all_values())
         return [f"{key} = {mine[key]}, not {others[key]}" for key in mine if mine[key] != others[key]]
 
 

@@ -1,4 +1,4 @@
-"""How well genotypes carry out all nine instructions of a condition (section VII)."""
+"""How well genotypes carry out all instructions of a condition, or of a task (section VII)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from arm2d import Condition, Readings, draw_trials, run_trials
+from arm2d import Readings, draw_trials, run_trials
+from arm2d.tasks.task import AnyTask, as_paper
 from evolution.search.algorithm import mean_in_order
 from evolution.search.randomness import Purpose, generator
 
@@ -18,7 +19,7 @@ TRIALS_PER_AREA: Final = 40
 
 @dataclass(frozen=True)
 class Evaluation:
-    """What P genotypes made of nine instructions, in the order of `condition.instructions`.
+    """What P genotypes made of all instructions, nine in the paper, in the order of `condition.instructions`.
 
     Attributes:
         condition: Names the instructions.
@@ -32,7 +33,7 @@ class Evaluation:
         steps: [P, 9], mean number of steps.
     """
 
-    condition: Condition
+    condition: AnyTask
     per_area: int
     trial_seed: int
     successes: NDArray[np.int64]
@@ -43,9 +44,10 @@ class Evaluation:
     steps: NDArray[np.float64]
 
     def __repr__(self) -> str:
-        n_agents = len(self.successes)
+        n_agents, n_instructions = self.fitness.shape
         share = 100 * self.success.mean()
-        return f"<Evaluation: {n_agents} x 9 instructions x {self.trials} trials, {share:.0f} % carried out>"
+        size = f"{n_agents} x {n_instructions} instructions x {self.trials} trials"
+        return f"<Evaluation: {size}, {share:.0f} % carried out>"
 
     @property
     def success(self) -> NDArray[np.float64]:
@@ -59,23 +61,23 @@ class Evaluation:
 
     @property
     def experienced(self) -> NDArray[np.bool_]:
-        """Which of the nine instructions were met during evolution, [9]."""
+        """Which of the instructions were met during evolution, [9]."""
         return np.array([word in self.condition.experienced for word in self.condition.instructions])
 
 
 def evaluate(
     genotypes: ArrayLike,
-    condition: Condition | str,
+    condition: AnyTask | str,
     readings: Readings | None = None,
     *,
     per_area: int = TRIALS_PER_AREA,
     trial_seed: int = 0,
 ) -> Evaluation:
-    """Run fresh trials of all nine instructions.
+    """Run fresh trials of all instructions.
 
     Args:
         genotypes: [P, 84], or one [84]. All meet the same trials.
-        condition: Which nine instructions; its name, such as "with-ignore", will do.
+        condition: Which nine instructions; its name, such as "with-ignore", will do. Or a task of your own.
         readings: The world, which should be the one they evolved in; the default readings if none are given.
         per_area: Trials of each instruction from each start area.
         trial_seed: Draws the trials.
@@ -83,9 +85,9 @@ def evaluate(
     Raises:
         ValueError: If a genotype is unsound, or there are no trials.
     """
-    condition, readings = Condition.parse(condition), readings or Readings()
+    condition, readings = as_paper(condition), readings or Readings()
     rng = generator(trial_seed, Purpose.EVALUATION)
-    trials = draw_trials(condition.instructions, per_area, readings, rng)
+    trials = draw_trials(condition.instructions, per_area, readings, rng, condition)
     scores = run_trials(genotypes, trials, readings)
     n_genotypes, n_instructions = len(scores.f1), len(condition.instructions)
 

@@ -32,6 +32,8 @@ class Purpose(IntEnum):
     BEHAVIOUR = 9
     STATISTICS = 10
     CROSSOVER = 11
+    CMA_ES = 12
+    CMA_ES_MEAN = 13
 
 
 def generator(seed: int, purpose: Purpose, generation: int = 0) -> np.random.Generator:

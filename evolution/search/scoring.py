@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import Condition, Instruction, Readings, Trials, draw_trials, run_trials
+from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
+from arm2d.tasks.task import AnyTask
 from evolution.search.algorithm import mean_in_order
 from evolution.search.config import RunConfig
 from evolution.search.population import Population
@@ -16,7 +17,7 @@ from evolution.search.randomness import Purpose, generator
 
 def draw_evolution_trials(
     instructions: Sequence[Instruction],
-    condition: Condition,
+    condition: AnyTask,
     per_area: int,
     readings: Readings,
     rng: np.random.Generator,
@@ -33,7 +34,7 @@ def draw_evolution_trials(
                 f"non-experienced instruction {instruction.action.name} {instruction.object.name} "
                 "was drawn for evolution; this would spoil the result"
             )
-    return draw_trials(instructions, per_area, readings, rng)
+    return draw_trials(instructions, per_area, readings, rng, condition)
 
 
 def score_population(population: Population, config: RunConfig) -> NDArray[np.float64]:

@@ -1,7 +1,8 @@
-"""The settings of the genetic algorithm (section V; spec section 9)."""
+"""The settings of the search: the paper's genetic algorithm (section V; spec section 9), or another."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from typing import Any, Final
@@ -13,20 +14,28 @@ LARGEST_TRIAL_FITNESS: Final = 3.0
 # The largest fitness of a genotype, a mean over the seven experienced instructions: 3 for four of them, MOVE
 # and TOUCH, and 2 for the three of the third action, which has no F3.
 LARGEST_FITNESS: Final = 18 / 7
+GENETIC: Final = "genetic"
+CMA_ES: Final = "cma-es"
+# Whose settings these are. Files name them only where they are not the default, so that those written before
+# there were other algorithms keep their bytes.
+OF_GENETIC: Final = ("elites", "parents")
+OF_CMA_ES: Final = ("cma_sigma", "cma_patience")
+ADDED: Final = ("algorithm", *OF_CMA_ES)
+NAME: Final = re.compile(r"[a-z][a-z0-9-]{0,39}")
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How the genetic algorithm searches. The defaults are the paper's."""
+    """How genotypes are searched for. The defaults are the paper's: a genetic algorithm."""
 
     population: int = 100
     """Genotypes in each generation."""
 
     elites: int = 3
-    """The best so many are copied on unchanged."""
+    """Genetic algorithm: the best so many are copied on unchanged."""
 
     parents: int = 50
-    """Children descend from the best so many, elites included."""
+    """Genetic algorithm: children descend from the best so many, elites included."""
 
     generations: int = 6000
     """Generations to be scored; the first, of random genotypes, is number 0."""
@@ -34,16 +43,45 @@ class Settings:
     trials_per_area: int = 2
     """Trials of each instruction from each of the two start areas."""
 
+    algorithm: str = GENETIC
+    """genetic, the paper's; cma-es; or one of your own (docs/how-to/algorithm.md)."""
+
+    cma_sigma: float = 0.25
+    """CMA-ES: standard deviation of the first genotypes around their mean, in genes of 0 to 1."""
+
+    cma_patience: int = 100
+    """CMA-ES: begins anew, with twice as many candidates, when so many iterations brought nothing better."""
+
     def __post_init__(self) -> None:
         for field in fields(self):
-            value = getattr(self, field.name)
-            if not isinstance(value, int) or isinstance(value, bool):
-                raise ValueError(f"setting {field.name} = {value!r} must be a whole number")
+            _check_kind(field.name, getattr(self, field.name), field.default)
+        object.__setattr__(self, "cma_sigma", float(self.cma_sigma))  # 1 and 1.0 are written alike
         _check_interval("population", self.population, N_BEST, 10_000)
-        _check_interval("elites", self.elites, 0, self.population - 1)
-        _check_interval("parents", self.parents, 1, self.population)
         _check_interval("generations", self.generations, 1, 1_000_000)
         _check_interval("trials_per_area", self.trials_per_area, 1, 1_000)
+        if not NAME.fullmatch(self.algorithm):
+            raise ValueError(
+                f"setting algorithm = {self.algorithm!r} is no name; give genetic, cma-es, or small letters, "
+                "digits and dashes"
+            )
+        if self.algorithm == GENETIC:
+            _check_interval("elites", self.elites, 0, self.population - 1)
+            _check_interval("parents", self.parents, 1, self.population)
+        else:
+            self._refuse_foreign(OF_GENETIC, GENETIC)
+        if self.algorithm == CMA_ES:
+            _check_interval("cma_sigma", self.cma_sigma, 0.001, 1.0)
+            _check_interval("cma_patience", self.cma_patience, 1, 1_000_000)
+        else:
+            self._refuse_foreign(OF_CMA_ES, CMA_ES)
+
+    def _refuse_foreign(self, names: tuple[str, ...], owner: str) -> None:
+        """Refuse settings of an algorithm that is not the one that searches."""
+        for name in names:
+            if getattr(self, name) != getattr(Settings, name):
+                raise ValueError(
+                    f"setting {name} belongs to the algorithm {owner}, not to {self.algorithm}; leave it out"
+                )
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, Any]) -> Settings:
@@ -58,12 +96,27 @@ class Settings:
                 raise ValueError(f"unknown setting {name!r}; there are {', '.join(known)}")
         return cls(**values)
 
-    def to_mapping(self) -> dict[str, int]:
-        """Every field as a plain value, ready for a config file."""
-        return asdict(self)
+    def to_mapping(self) -> dict[str, Any]:
+        """The fields as plain values, ready for a config file: the paper's, and what is not as usual."""
+        return {name: value for name, value in asdict(self).items() if name not in self._unsaid()}
+
+    def _unsaid(self) -> set[str]:
+        """The fields that a config file leaves out."""
+        as_usual = {name for name in ADDED if getattr(self, name) == getattr(Settings, name)}
+        return as_usual if self.algorithm == GENETIC else as_usual | set(OF_GENETIC)
 
 
-def _check_interval(name: str, value: int, low: int, high: int) -> None:
-    """Refuse a number outside [low, high]."""
+def _check_kind(name: str, value: Any, default: Any) -> None:
+    """Refuse a value that is not of the kind of its default; a whole number is a number."""
+    if isinstance(default, str):
+        if not isinstance(value, str):
+            raise ValueError(f"setting {name} = {value!r} must be text, such as {default!r}")
+    elif isinstance(value, bool) or not isinstance(value, int if isinstance(default, int) else (int, float)):
+        kind = "a whole number" if isinstance(default, int) else "a number"
+        raise ValueError(f"setting {name} = {value!r} must be {kind}")
+
+
+def _check_interval(name: str, value: float, low: float, high: float) -> None:
+    """Refuse a number outside [low, high], NaN included."""
     if not low <= value <= high:
         raise ValueError(f"setting {name} = {value} must lie in [{low}, {high}]")

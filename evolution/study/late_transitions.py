@@ -59,7 +59,7 @@ def are_tested(path: Path) -> bool:
 def _test(folder: RunFolder, measures: RunMeasures) -> NDArray[np.int32]:
     """Test the sampled generations one by one."""
     config = folder.config
-    transitions = action_transitions(config.condition), object_transitions(config.condition)
+    transitions = action_transitions(config.papers_condition), object_transitions(config.papers_condition)
     sampled = (
         (generation, genotypes)
         for span in late_spans(folder)
@@ -68,7 +68,7 @@ def _test(folder: RunFolder, measures: RunMeasures) -> NDArray[np.int32]:
     )
     passed = np.zeros((len(CLASSES), len(TESTS)), np.int32)
     for (generation, genotypes), successes in zip(sampled, measures.successes.sum(axis=-1), strict=True):
-        members = np.stack(list(classify(successes, config.condition).values()))  # [3, 5]
+        members = np.stack(list(classify(successes, config.papers_condition).values()))  # [3, 5]
         ranks = np.flatnonzero(members.any(axis=0))
         rng = generator(config.seed, Purpose.TRANSITIONS, generation)
         for test, changes in enumerate(transitions):

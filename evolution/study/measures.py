@@ -72,12 +72,12 @@ class RunMeasures:
     @property
     def top_shares(self) -> NDArray[np.float64]:
         """Share of agents in category 10 of the sub-tasks I to IV, [4] (Table II)."""
-        return (categories(self.agents, self.config.condition) == 10).mean(axis=0)
+        return (categories(self.agents, self.config.papers_condition) == 10).mean(axis=0)
 
     @property
     def class_shares(self) -> dict[AgentClass, float]:
         """Share of agents that are fully, partially, not compositional."""
-        members = classify(self.agents, self.config.condition)
+        members = classify(self.agents, self.config.papers_condition)
         return {kind: float(each.mean()) for kind, each in members.items()}
 
     @property

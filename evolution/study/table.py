@@ -82,7 +82,7 @@ def group(measured: Iterable[tuple[str, RunMeasures]]) -> list[VariantMeasures]:
     """Runs named by their variant, put together in the order in which variants first appear."""
     groups: dict[tuple[str, Condition, int], list[RunMeasures]] = {}
     for name, run in measured:
-        key = (name, run.config.condition, run.config.settings.generations)
+        key = (name, run.config.papers_condition, run.config.settings.generations)
         groups.setdefault(key, []).append(run)
     return [
         VariantMeasures(*key, tuple(sorted(runs, key=lambda run: run.config.seed)))

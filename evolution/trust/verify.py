@@ -156,6 +156,7 @@ def _other_population(checkpoint: Checkpoint | None, population: Population) -> 
         return ""
     found = checkpoint.population
     same = _same(found.genotypes, population.genotypes) and np.array_equal(found.parents, population.parents)
+    same = same and not _first_other(dict(population.memory), dict(found.memory))
     return (
         "" if same else f"the next population in {CHECKPOINT}, of generation {found.generation}, is another"
     )

@@ -11,9 +11,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import Instruction, Readings
+from arm2d import Instruction, Readings, Task
 from arm2d import constants as c
-from arm2d.reference import LEFT, RIGHT, Side, controller, sense
+from arm2d.reference import LEFT, PAPERS, RIGHT, Side, controller, sense
+from arm2d.tasks.hearing import bits_heard
 from mujoco_port.acting.contacts import LEFT_SIDE, RIGHT_SIDE
 from mujoco_port.acting.control import Body
 from mujoco_port.acting.rollout import Angles, PhysicalRecord
@@ -31,6 +32,7 @@ class ClosedLoop:
         alpha: [deg], where S1 starts.
         readings: How the paper is understood.
         body: The robot.
+        task: How the words are said, if not as in the paper.
 
     Attributes:
         heard: The instruction that is heard from the next step on.
@@ -44,9 +46,11 @@ class ClosedLoop:
         alpha: float,
         readings: Readings,
         body: Body,
+        task: Task | None = None,
     ) -> None:
         self._think = controller(genotype, readings)
         self.heard, self._readings, self._body = instruction, readings, body
+        self._task = task or PAPERS
         self.sensed: list[list[float]] = []
         self._here: Angles = (alpha, c.BETA_MAX)  # where S2 is to be at this moment
         self._next: Angles = self._here
@@ -61,7 +65,8 @@ class ClosedLoop:
         beta = beta_of(self._body.robot.plane, self._body.hand)
         sides = felt(so_far.contact[-SKIN_MEMORY:])
         places = [(x, y) for x, y in seen.tolist()]
-        inputs = sense(alpha, beta, places, sides, self.heard, self._readings)
+        words = bits_heard(self.heard, self._task, len(self.sensed))
+        inputs = sense(alpha, beta, places, sides, words, self._readings)
         self.sensed.append(inputs)
         turn1, turn2 = self._think(inputs)
         self._here, (alpha, beta) = self._next, self._next

@@ -56,7 +56,8 @@ class Lab:
             OutOfReachError: If the robot cannot reach a place.
         """
         instruction, discs = instruction_of(trial), trial.discs[0]
-        angles = planar_angles(genotype, instruction, float(trial.alpha[0]), discs, readings, delay)
+        alpha = float(trial.alpha[0])
+        angles = planar_angles(genotype, instruction, alpha, discs, readings, delay, trial.task)
         return self.carry_out(OpenLoop(angles), instruction, discs, readings)
 
     def closed_loop(
@@ -74,7 +75,7 @@ class Lab:
             OutOfReachError: If the robot cannot reach a place.
         """
         instruction, alpha = instruction_of(trial), float(trial.alpha[0])
-        pilot = ClosedLoop(genotype, instruction, alpha, readings, self.body)
+        pilot = ClosedLoop(genotype, instruction, alpha, readings, self.body, trial.task)
         record, verdict = self.carry_out(pilot, instruction, trial.discs[0], readings, eyes)
         return replace(record, inputs=np.array(pilot.sensed)), verdict
 

@@ -8,10 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import Instruction, Readings
+from arm2d import Instruction, Readings, Task
 from arm2d import constants as c
 from arm2d.geometry import Point
-from arm2d.reference import Side, controller, sense, touch
+from arm2d.reference import PAPERS, Side, controller, sense, touch
+from arm2d.tasks.hearing import bits_heard
 from mujoco_port.acting.rollout import Angles, PhysicalRecord
 
 
@@ -24,6 +25,7 @@ class PlanarAgent:
         discs: [3, 2] in [cm], centres of blue, green and red.
         readings: The world.
         delay: Steps from what is sensed to the turn that answers to it, beyond the step of the 2D world.
+        task: How the words are said, if not as in the paper.
 
     Attributes:
         alpha: Of S1, [deg].
@@ -40,17 +42,21 @@ class PlanarAgent:
         discs: NDArray[np.float64],
         readings: Readings,
         delay: int = 0,
+        task: Task | None = None,
     ) -> None:
         self._think, self._readings = controller(genotype, readings), readings
         self.alpha, self.beta, self.turned = alpha, c.BETA_MAX, 0.0
         self.places: list[Point] = [(x, y) for x, y in discs.tolist()]
         self.sides: list[Side] = [None, None, None]
         self._turns = deque([(0.0, 0.0)] * delay)
+        self._task, self._steps = task or PAPERS, 0
 
     def step(self, heard: Instruction) -> list[float]:
         """Sense, think and turn, while two words are heard; I1 to I18 as they were sensed."""
         alpha, beta, readings = self.alpha, self.beta, self._readings
-        inputs = sense(alpha, beta, self.places, self.sides, heard, readings)
+        words = bits_heard(heard, self._task, self._steps)
+        inputs = sense(alpha, beta, self.places, self.sides, words, readings)
+        self._steps += 1
         self._turns.append(self._think(inputs))
         turn1, turn2 = self._turns.popleft()
         self.alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
@@ -69,6 +75,7 @@ def planar_angles(
     discs: NDArray[np.float64],
     readings: Readings,
     delay: int = 0,
+    task: Task | None = None,
 ) -> Iterator[Angles]:
     """Alpha and beta in [deg] at the start of a trial of the 2D world and after every step, without an end.
 
@@ -82,8 +89,9 @@ def planar_angles(
         discs: [3, 2] in [cm], centres of blue, green and red.
         readings: The world.
         delay: Steps from what is sensed to the turn that answers to it, beyond the step of the 2D world.
+        task: How the words are said, if not as in the paper.
     """
-    agent = PlanarAgent(genotype, alpha, discs, readings, delay)
+    agent = PlanarAgent(genotype, alpha, discs, readings, delay, task)
     while True:
         yield agent.alpha, agent.beta
         agent.step(instruction)

@@ -151,4 +151,5 @@ def start_of(record: TrialRecord) -> Trials:
         objects=np.array([asked.object]),
         alpha=record.alpha[:1],
         discs=record.discs[:1],
+        task=record.task,
     )

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from arm2d import ActionWord, Instruction, ObjectWord, Readings, TrialRecord
+from arm2d import ActionWord, ObjectWord, Readings, Task, TrialRecord
 from arm2d import constants as c
 from arm2d.controller import decode
 from arm2d.drawing import state_at
-from arm2d.instructions import ACTION_CODES, OBJECT_CODES
 from arm2d.records import brief
+from arm2d.tasks.hearing import words_of
 from arm2d.worlds.progress import progress_of
 from models.robots import Robot
 from mujoco_port.film.kinematic import FRAMES_PER_STEP, roll_out
@@ -51,12 +51,15 @@ class Mind:
         """K."""
         return len(self.inputs)
 
-    def heard(self, step: int, third: ActionWord) -> Instruction:
-        """The instruction heard in a step; `third` is the action that shares its code with another."""
-        codes = tuple(self.inputs[step, 12:15].astype(int)), tuple(self.inputs[step, 15:].astype(int))
-        known = [each for each in ActionWord if each < ActionWord.INDICATE or each is third]
-        action = next(each for each in known if ACTION_CODES[each] == codes[1])
-        return Instruction(action, next(each for each in ObjectWord if OBJECT_CODES[each] == codes[0]))
+    def heard(self, step: int, task: Task) -> tuple[ActionWord | None, ObjectWord | None]:
+        """The words heard in a step; None for one that is not said."""
+        return words_of(self.inputs[step, 12:], task)
+
+
+def task_heard(record: TrialRecord) -> Task:
+    """The task whose words a record's agent hears."""
+    third = "ignore" if record.instruction.action is ActionWord.IGNORE else "indicate"
+    return record.task or Task(third=third)
 
 
 def mind_of(record: TrialRecord, genotype: ArrayLike | None) -> Mind:
@@ -144,10 +147,8 @@ class Take:
     @property
     def pointing(self) -> NDArray[np.bool_]:
         """[F], whether INDICATE is heard."""
-        ignores = self.record.instruction.action is ActionWord.IGNORE
-        third = ActionWord.IGNORE if ignores else ActionWord.INDICATE
-        last = self.mind.steps - 1
-        words = [self.mind.heard(step, third).action for step in range(last + 1)]
+        last, task = self.mind.steps - 1, task_heard(self.record)
+        words = [self.mind.heard(step, task)[0] for step in range(last + 1)]
         return np.array([words[min(int(step), last)] is ActionWord.INDICATE for step in self.steps])
 
 

@@ -20,7 +20,7 @@ from mujoco_port.film.panel import WIDTH as PANEL_WIDTH_PX
 from mujoco_port.film.panel import MindPanel
 from mujoco_port.film.quality import QUALITIES, Quality
 from mujoco_port.film.stage import Stage
-from mujoco_port.film.take import Take, kinematic_take
+from mujoco_port.film.take import Take, kinematic_take, task_heard
 
 HEIGHT_PX: Final = 720
 ROBOT_WIDTH_PX: Final = 800
@@ -53,7 +53,8 @@ def held(pictures: Iterable[NDArray[np.uint8]]) -> Iterator[NDArray[np.uint8]]:
 
 def panel_of(take: Take, robot: Robot) -> MindPanel:
     """What stands beside the robot."""
-    return MindPanel(take.mind, take.record.instruction, robot.title, take.verdicts, take.steps[-1])
+    task = task_heard(take.record)
+    return MindPanel(take.mind, take.record.instruction, robot.title, take.verdicts, take.steps[-1], task)
 
 
 def frames(take: Take, robot: Robot, quality: Quality = NORMAL) -> Iterator[NDArray[np.uint8]]:

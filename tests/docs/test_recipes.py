@@ -21,6 +21,7 @@ WANTED = {
     "sense",
     "robot",
     "figure",
+    "task",
 }
 
 

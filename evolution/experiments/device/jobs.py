@@ -7,16 +7,19 @@ of all of them at once. Several such processes share a device: while one breeds,
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
+from arm2d import Condition
+from arm2d.device.errors import DeviceTaskError
 from arm2d.device.opening import CUDA, PROCESSOR, check_name, cuda_names, open_device
 from evolution.child import reference
 from evolution.experiments.device.stages import evolve_batch, test_run_on
 from evolution.experiments.plan import EVOLVING, LOGS, TESTING
 from evolution.experiments.workers import Job
+from evolution.search.config import RunConfig
 
 # Chosen, not measured: each holds some 0.5 GB of the device for itself, and breeds on one core.
 PROCESSES_PER_DEVICE: Final = 8
@@ -56,6 +59,16 @@ class DeviceShares:
 
     devices: tuple[str, ...]
     processes: int
+
+    def check(self, configs: Iterable[RunConfig]) -> None:
+        """Refuse runs whose task the devices do not know, before anything is written.
+
+        Raises:
+            ValueError: If there is one.
+        """
+        for config in configs:
+            if not isinstance(config.condition, Condition):
+                raise DeviceTaskError(config.condition)
 
     def batches(self, chains: Sequence[Sequence[Job]], folder: Path) -> list[list[Job]]:
         """Jobs that evolve what is not evolved yet, runs that follow each other in one batch.

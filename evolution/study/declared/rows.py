@@ -95,7 +95,7 @@ def _reading_columns() -> dict[str, Callable[[MeasuredRun], str]]:
 
 
 COLUMNS: Final[Mapping[str, Callable[[MeasuredRun], Any]]] = {
-    "condition": lambda run: str(run.config.condition),
+    "condition": lambda run: str(run.config.papers_condition),
     "seed": lambda run: run.config.seed,
     "generations": lambda run: run.config.settings.generations,
     **_reading_columns(),
@@ -123,7 +123,7 @@ def measured_run(folder: RunFolder) -> MeasuredRun:
         plateau=round(found.plateau, 6),
         first_solved=found.first_solved,
         solved_late=round(found.solved_late, 4),
-        counts=_counts(found.agents, passed_transitions(folder, found), folder.config.condition),
+        counts=_counts(found.agents, passed_transitions(folder, found), folder.config.papers_condition),
         successes=found.success_by_area.round(4),
     )
 
@@ -148,7 +148,7 @@ def post_evaluated_run(folder: RunFolder) -> MeasuredRun:
         plateau=round(plateau_of(folder), 6),
         first_solved=first,
         solved_late=round(share, 4),
-        counts=_counts(agents, passed, folder.config.condition),
+        counts=_counts(agents, passed, folder.config.papers_condition),
         successes=np.repeat(agents.mean(axis=0)[:, np.newaxis] / TRIALS, len(AREAS), axis=1).round(4),
     )
 

@@ -8,14 +8,14 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from numpy.typing import NDArray
 
-from arm2d import ActionWord, Instruction
+from arm2d import ActionWord, Instruction, Task
 from arm2d import constants as c
 from arm2d.drawing import INK, look
 from mujoco_port.film.panel.neurons import across, draw_motors, draw_neurons, trace_height
 from mujoco_port.film.panel.ring import draw_ring
 from mujoco_port.film.panel.senses import draw_senses
 from mujoco_port.film.panel.sheet import HEIGHT, QUIET, UNLIT, WIDTH, blank, mark, write
-from mujoco_port.film.panel.words import draw_words, light_words
+from mujoco_port.film.panel.words import Heard, draw_words, light_words
 from mujoco_port.film.take import Mind
 
 
@@ -28,6 +28,7 @@ class MindPanel:
         title: Whose body it is.
         verdicts: Who judges and whether the instruction was carried out; shown from `end` on.
         end: The step at which the verdicts are known.
+        task: Whose words are heard; by default the paper's.
     """
 
     @look()
@@ -38,17 +39,18 @@ class MindPanel:
         title: str,
         verdicts: tuple[tuple[str, bool], ...],
         end: float,
+        task: Task | None = None,
     ) -> None:
         self._mind, self._instruction, self._verdicts, self._end = mind, instruction, verdicts, end
-        is_ignore = instruction.action is ActionWord.IGNORE
-        self._third = ActionWord.IGNORE if is_ignore else ActionWord.INDICATE
+        third = "ignore" if instruction.action is ActionWord.IGNORE else "indicate"
+        self._task = task or Task(third=third)
         figure = blank(WIDTH, HEIGHT)
         self._canvas = FigureCanvasAgg(figure)
         self._axes = axes = figure.add_axes((0, 0, 1, 1))
         axes.set(xlim=(0, WIDTH), ylim=(HEIGHT, 0))
         axes.axis("off")
         write(axes, WIDTH / 2, HEIGHT - 14, title, size=7, color=QUIET, ha="center")
-        self._chips = draw_words(axes, instruction, self._third)
+        self._chips = draw_words(axes, instruction, self._task)
         self._lamps, self._bend = draw_senses(axes)
         self._traces, self._cursor = draw_neurons(axes)
         self._bars = draw_motors(axes)
@@ -58,7 +60,7 @@ class MindPanel:
         self._moving = [*lamps, self._bend, *self._traces, self._cursor, *self._bars, *ring]
         for artist in self._moving:
             artist.set_animated(True)
-        self._heard: Instruction | None = None
+        self._heard: Heard | None = None
         self._background: Any = None  # of the canvas, without what moves
         self._shown: tuple[int, bool] | None = None
         self._picture = np.empty(0, np.uint8)
@@ -80,7 +82,7 @@ class MindPanel:
     def _show(self, state: int, ended: bool) -> None:
         """Set everything as it is after `state` steps."""
         mind, step = self._mind, min(state, self._mind.steps - 1)
-        self._light_words(mind.heard(step, self._third))
+        self._light_words(mind.heard(step, self._task))
         values = mind.inputs[step]
         for lamp, index, colour in self._lamps:
             lamp.set_facecolor(colour if values[index] > 0.5 else UNLIT)
@@ -102,7 +104,7 @@ class MindPanel:
         shown = [f"{mark(success)} {judge}" for judge, success in self._verdicts] if ended else []
         self._outcome.set_text("\n".join(shown))
 
-    def _light_words(self, heard: Instruction) -> None:
+    def _light_words(self, heard: Heard) -> None:
         """Light the words that are heard; as they seldom change, all that stands still is drawn with them."""
         if heard == self._heard:
             return

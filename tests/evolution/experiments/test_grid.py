@@ -8,7 +8,7 @@ import pytest
 
 from arm2d import Readings
 from evolution.cli import main
-from evolution.experiments.grid import read_experiment
+from evolution.experiments.grid import experiment_from_mapping, read_experiment
 from evolution.experiments.plan import Plan
 from evolution.experiments.plan_file import read_plan, write_plan
 from evolution.experiments.spec import MOST_RUNS
@@ -135,7 +135,7 @@ def test_a_plan_cannot_lead_out_of_its_folder(tmp_path):
 
 
 BAD = {
-    "seed = 3": "unknown key 'seed'; did you mean seeds? there are output, jobs, conditions, seeds",
+    "seed = 3": "unknown key 'seed'; did you mean seeds? there are output, jobs, conditions, task",
     "zzz = 3": "unknown key 'zzz'; there are output, jobs,",
     "[readings]\nobject_radus = 3": "unknown reading 'object_radus' in [readings]; did you mean",
     "[settings]\ngeneration = 3": "unknown setting 'generation' in [settings]; did you mean generations?",
@@ -229,3 +229,8 @@ def test_runs_of_one_variant_and_of_several_are_not_mixed(write, tmp_path, capsy
     assert main(["experiment", str(path), f"--output={tmp_path / 'out'}"]) == 2
     error = capsys.readouterr().err
     assert f"holds runs of one variant, such as {run}, not of 2 variants; choose another" in error
+
+
+def test_an_algorithm_may_be_a_grid_like_any_setting():
+    spec = experiment_from_mapping({"settings": {"algorithm": ["genetic", "cma-es"]}}, Path("x"))
+    assert list(spec.plan().variants.values()) == ["default", "algorithm-cma-es"]

@@ -46,7 +46,7 @@ HEAD = f'format = {FORMAT}\ncondition = "with-indicate"\nseed = 3\n'
     [
         ("seed 3", "this is not TOML: "),
         ("", "format is missing; a run needs format, condition and seed"),
-        (f"{HEAD}speed = 3", "unknown key 'speed'; there are format, condition, seed, settings, readings"),
+        (f"{HEAD}speed = 3", "unknown key 'speed'; there are format, condition, seed, task, settings"),
         (HEAD.replace("= 1\n", "= 2\n", 1), "format 2 is not known here; this version reads format 1"),
         (
             HEAD.replace("indicate", "shout"),

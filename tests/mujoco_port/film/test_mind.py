@@ -5,13 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from arm2d import ActionWord, Condition, Instruction, LabelChanges, ObjectWord, Readings, draw_trials
+from arm2d import ActionWord, Condition, Instruction, LabelChanges, ObjectWord, Readings, Task, draw_trials
 from arm2d import record_trial as record_one
 from arm2d.controller import decode
 from mujoco_port.film.panel import MindPanel
-from mujoco_port.film.take import mind_of
+from mujoco_port.film.take import mind_of, task_heard
 
 CHANGE = 3
+TASK = Task()
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +43,7 @@ def test_states_shown_are_those_of_the_kernel(records, evolved_agent):
 def test_words_heard_are_the_instruction(records, evolved_agent):
     for record in records:
         mind = mind_of(record, evolved_agent)
-        assert mind.heard(0, ActionWord.INDICATE) == record.instruction
+        assert Instruction(*mind.heard(0, TASK)) == record.instruction
 
 
 def test_without_a_genotype_motors_are_what_they_brought_about(records):
@@ -68,7 +69,7 @@ def test_the_words_change_visibly_in_a_transition_trial(evolved_agent):
     )
     record = record_one(evolved_agent, replace(trials, changes=changes)[0])
     mind = mind_of(record, evolved_agent)
-    heard = [mind.heard(step, ActionWord.INDICATE).action for step in range(mind.steps)]
+    heard = [mind.heard(step, TASK)[0] for step in range(mind.steps)]
     assert heard[0] is ActionWord.INDICATE
     assert heard[-1] is ActionWord.TOUCH
     when = heard.index(ActionWord.TOUCH)
@@ -104,3 +105,23 @@ def test_what_was_never_met_is_marked(evolved_agent):
         trials = draw_trials([instruction], 1, Readings(), np.random.default_rng(5))
         picture = panel(record_one(evolved_agent, trials[0]), evolved_agent).frame(0)[badge]
         assert ((picture < 60).all(axis=-1).mean() > 0.3) == marked
+
+
+def test_the_words_of_a_task_are_shown_one_after_the_other_and_then_none(evolved_agent):
+    task = Task(third="both", words="object-first", word_steps=5, held_out=("ignore red",))
+    trials = draw_trials(["ignore red"], 1, Readings(), np.random.default_rng(3), task)
+    record = record_one(evolved_agent, trials[0])
+    mind = mind_of(record, evolved_agent)
+    assert [mind.heard(step, task) for step in (0, 4, 5, 9, 10)] == [
+        (None, ObjectWord.RED),
+        (None, ObjectWord.RED),
+        (ActionWord.IGNORE, None),
+        (ActionWord.IGNORE, None),
+        (None, None),
+    ]
+    shown = MindPanel(mind, record.instruction, "robot", (), record.steps, task_heard(record))
+    action_row = [shown.frame(step)[26:62].astype(int) for step in (2, 7, 12)]
+    changed = [(np.abs(one - action_row[0]).max(axis=-1) > 100).any(axis=0) for one in action_row]
+    assert changed[1][350:440].mean() > 0.8  # IGNORE, the fourth, lights up
+    assert not changed[1][36:300].any()
+    assert not changed[2].any()  # and goes out

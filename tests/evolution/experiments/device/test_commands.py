@@ -91,3 +91,12 @@ def test_workers_of_a_cluster_use_the_devices_they_have(experiment):
         dask.close()
     assert main(["experiment", "small.toml", "--seeds=1", "--output=plain", "--jobs=1"]) == 0
     assert files(experiment / "there") == files(experiment / "plain")
+
+
+def test_a_task_that_devices_do_not_know_is_refused_before_anything_is_written(experiment, capsys):
+    task = FILE.replace("post_evaluate = true", 'conditions = ["with-both"]\npost_evaluate = false')
+    (experiment / "both.toml").write_text(task)
+    assert main(["experiment", "both.toml", "--output=new", "--device=warp-cpu"]) == 2
+    said = capsys.readouterr().err
+    assert "not with-both; leave --device away" in said
+    assert not (experiment / "new").exists()
