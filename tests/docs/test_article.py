@@ -113,3 +113,24 @@ def test_transitions(compared):
         row["default"] for (_, number), row in compared.items() if "transition" in number and row["default"]
     ]
     assert all(float(share) == 0 for share in printed)
+
+
+def test_worlds_drawn_at_random():
+    """Of the first 88 worlds, whatever has been measured since."""
+    reached, solved = {}, {}
+    for condition in ("with-indicate", "with-ignore"):
+        first = [
+            row
+            for row in rows(READINGS / "factorial.csv")
+            if row["condition"] == condition and int(row["seed"]) <= 1088
+        ]
+        assert len(first) == 88
+        reached[condition] = sum(float(row["plateau"]) == pytest.approx(18 / 7, abs=1e-4) for row in first)
+        solved[condition] = sum(row["first generation that solved all trials"] != "never" for row in first)
+    assert (
+        f"{reached['with-indicate']} With-Indicate and {reached['with-ignore']} With-Ignore runs end"
+        in ARTICLE
+    )
+    page = (DOCS / "readings.md").read_text()
+    assert f"| {reached['with-indicate']} of 88 | {reached['with-ignore']} of 88 |" in page
+    assert f"| {solved['with-indicate']} of 88 | {solved['with-ignore']} of 88 |" in page
