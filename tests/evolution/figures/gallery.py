@@ -32,10 +32,14 @@ from evolution.study.declared.regression import N_MAIN, Model, level_numbers
 from evolution.study.drawn import Drawn
 from evolution.study.figure import effects_figure, failures_figure
 from models.robots import ROBOTS
-from mujoco_port.reach.certificate import Certificate
-from mujoco_port.reach.certificate_figure import draw_certificate
+from mujoco_port.film.gl import choose_back_end
 from tests.evolution.made_up import both_conditions
 from tests.evolution.study.declared.synthetic import CONFIGS, made_up
+
+choose_back_end()  # before anything imports mujoco: other tests draw in this process
+
+from mujoco_port.reach.certificate import Certificate  # noqa: E402
+from mujoco_port.reach.certificate_figure import draw_certificate  # noqa: E402
 
 INDICATE = Condition.WITH_INDICATE
 ORIGIN = "runs/mutation-sd-0.03/with-indicate/seed-0013, generation 5,999, rank 0, With-Indicate, 28 trials"
