@@ -38,7 +38,8 @@ T = TypeVar("T")
 NARROWEST, WIDEST = 40, 80
 # Columns of a box that holds a parser's complaint, so that nothing is wrapped in it.
 UNWRAPPED: Final = 100_000
-OPTION_AT_START: Final = re.compile(r"^\W*(--[a-z][\w.-]*)", re.MULTILINE)
+# At the left of a column of help; a wide page has several.
+OPTION_AT_START: Final = re.compile(r"(?:^\W*|\s{2})(--[a-z][\w.-]*)", re.MULTILINE)
 WORDINGS: Final = (
     (r"^Error parsing |'None', ", ""),
     (r"invalid literal for int\(\) with base 10: (.*)", r"a whole number is needed, not \1"),

@@ -70,7 +70,7 @@ def installation(tmp_path):
     for package in ("evolution", "arm2d"):
         (folder / package).mkdir(parents=True)
         (folder / package / "__init__.py").touch()
-    for name in ("child.py", "answers.py"):
+    for name in ("child.py", "answers.py", "unloadable.py"):
         shutil.copy(Path(child.__file__).with_name(name), folder / "evolution")
     (folder / "evolution" / "where.py").write_text(WHERE)
     # In the checkout itself, as in any other current folder, nothing takes the place of Python's own.

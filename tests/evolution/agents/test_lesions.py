@@ -19,9 +19,7 @@ def test_lesions_are_those_of_the_plain_reference(lesion, condition, evolved, mo
         own = trials[np.flatnonzero(trials.objects == target)]
         for heard, codes in lesioned_trials(own, target, lesion, condition):
             with monkeypatch.context() as patch:
-                for row, word in enumerate([*ObjectWord, *ActionWord]):
-                    table = reference.OBJECT_CODES if row < 3 else reference.ACTION_CODES
-                    patch.setitem(table, word, tuple(codes[row].tolist()))
+                patch.setitem(vars(reference.PAPERS), "code_lists", codes.tolist())
                 compare_with_reference(genotype, heard, codes)
 
 
