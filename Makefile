@@ -58,6 +58,7 @@ bench: $(READY)  ## what is fast, measured on this machine
 	$(BIN)/python -m benchmarks.ik
 	$(BIN)/python -m benchmarks.physics
 	$(BIN)/python -m benchmarks.video
+	$(BIN)/python -m benchmarks.live
 
 clean:  ## remove the environment and what the demo made
 	rm -rf $(VENV) $(DEMO) site .pytest_cache .ruff_cache
