@@ -1,9 +1,12 @@
 """The article says what the tables say: every count in its claims is made again from docs/results."""
 
 import csv
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
+
+from arm2d import Readings
 
 DOCS = Path(__file__).parents[2] / "docs"
 ARTICLE = " ".join((DOCS / "article.md").read_text().split())
@@ -134,3 +137,7 @@ def test_worlds_drawn_at_random():
     page = (DOCS / "readings.md").read_text()
     assert f"| {reached['with-indicate']} of 88 | {reached['with-ignore']} of 88 |" in page
     assert f"| {solved['with-indicate']} of 88 | {solved['with-ignore']} of 88 |" in page
+
+
+def test_entries_of_the_ledger():
+    assert f"{len(fields(Readings))} entries in the" in ARTICLE
