@@ -18,11 +18,10 @@ from collections.abc import Sequence
 from itertools import chain
 from pathlib import Path
 
-from arm2d import Readings
 from arm2d.device.opening import open_device
 from benchmarks import device_stages as stages
 from benchmarks.device_stages import Bench, Experiment, Sizes
-from benchmarks.kernel import populations
+from benchmarks.device_work import populations_on
 from evolution.runs.storage import make_folder
 from evolution.search.settings import Settings
 
@@ -30,9 +29,9 @@ STAGES = (
     stages.facts,
     stages.same_bits,
     stages.batches,
+    stages.limited_registers,
     stages.experiments,
     stages.post_evaluation,
-    stages.limited_registers,
     stages.other_shares,
 )
 TINY = Sizes(
@@ -43,7 +42,7 @@ TINY = Sizes(
     registers=(128,),
     settings=Settings(population=6, elites=1, parents=3, trials_per_area=1),
     seconds=0.5,
-    agents=4,
+    agents=10,
 )
 HEADING = ("stage", "what", "found", "after_s")
 
@@ -58,7 +57,7 @@ def main() -> None:
     given = parser.parse_args()
     began, sizes = time.monotonic(), TINY if given.tiny else Sizes()
     device = open_device(given.device)
-    random, evolved = populations(Readings(), sizes.evolved).values()
+    random, evolved = populations_on(given.device, sizes.evolved)
     bench, rows = Bench(device, sizes, random, evolved), []
     make_folder(given.output)
     for row in chain.from_iterable(stage(bench) for stage in STAGES):

@@ -13,13 +13,29 @@ from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, draw_trials, run_trials
 from evolution.experiments.device.late_tests import laboratory_on
+from evolution.search.algorithm import breed, choose_parents, initial_genotypes
 from evolution.search.evaluation import TRIALS_PER_AREA
+from evolution.search.settings import N_BEST, Settings
 
 AGENTS_OF_A_PART = 500  # the five best of a hundred generations
 PATIENCE = 300.0  # [s], until all processes have compiled
 
 # Holds the processes until all of them are ready to be measured.
 _ready: Any = None
+
+
+def populations_on(device: str, generations: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A random population [100, 84], and one evolved for some generations on a device."""
+    laboratory = laboratory_on(device)
+    from arm2d.device.groups import Group
+
+    settings, readings, rng = Settings(), Readings(), np.random.default_rng(2)
+    random = evolved = initial_genotypes(settings, rng)
+    for _ in range(generations):
+        trials = draw_trials(Condition.WITH_INDICATE.experienced, 2, readings, rng)
+        (fitness,) = laboratory.fitness([Group(evolved, trials, readings)])
+        evolved = breed(evolved, choose_parents(fitness, settings, readings, rng), settings, readings, rng)
+    return random, evolved
 
 
 def rate_of_all(processes: int, work: Callable[..., Any], *arguments: Any) -> float:
@@ -65,16 +81,13 @@ def agents_on_a_device(seconds: float, genotypes: NDArray[np.float64], device: s
     from arm2d.device.groups import Group
 
     rng, readings = np.random.default_rng(1), Readings()
-    agents = genotypes[np.arange(n) % len(genotypes)]
+    generations = genotypes[np.arange(n) % len(genotypes)].reshape(-1, N_BEST, genotypes.shape[1])
+    instructions = Condition.WITH_INDICATE.instructions * N_BEST
 
     def test() -> None:
         groups = [
-            Group(
-                each[np.newaxis],
-                draw_trials(Condition.WITH_INDICATE.instructions, TRIALS_PER_AREA, readings, rng),
-                readings,
-            )
-            for each in agents
+            Group(best, draw_trials(instructions, TRIALS_PER_AREA, readings, rng), readings, each_own=True)
+            for best in generations
         ]
         laboratory.success(groups).reshape(n, 9, -1).sum(axis=-1)
 

@@ -1,8 +1,8 @@
 """Many populations with trials of their own in one batch, such as a generation of a hundred runs.
 
-Axes: G groups, P genotypes of a group, T trials of a group; each genotype of a group meets all its trials.
-Groups do not influence one another, so a batch can be cut anywhere: where memory does not suffice it is
-halved, and the size that fitted is kept for the next one.
+Axes: G groups, P genotypes of a group, T trials that each genotype of a group meets: the same for all of
+them, or its own. Groups do not influence one another, so a batch can be cut anywhere: where memory does not
+suffice it is halved, and the size that fitted is kept for the next one.
 """
 
 from __future__ import annotations
@@ -33,11 +33,27 @@ MOST_TRIALS: Final = 2**22
 
 
 class Group(NamedTuple):
-    """Genotypes [P, 84] and the trials that each of them meets, in one world."""
+    """Genotypes and the trials that each of them meets, in one world.
+
+    Attributes:
+        genotypes: [P, 84].
+        trials: [T]; or [P T], genotype after genotype, if each has its own.
+        readings: The world.
+        each_own: Whether each genotype has trials of its own.
+    """
 
     genotypes: NDArray[np.float64]
     trials: Trials
     readings: Readings
+    each_own: bool = False
+
+
+class _Shape(NamedTuple):
+    """The size of every group of a batch."""
+
+    n_genotypes: int  # P
+    n_trials: int  # T
+    each_own: bool
 
 
 class Laboratory:
@@ -62,8 +78,7 @@ class Laboratory:
             DeviceMemoryError: If the device has too little memory for a single group.
             DeviceLostError: If it does not answer.
         """
-        shape = _shape(groups)
-        return np.concatenate(self._in_parts(groups, shape, self._mean_fitness))
+        return np.concatenate(self._in_parts(groups, _shape(groups), self._mean_fitness))
 
     def success(self, groups: Sequence[Group]) -> NDArray[np.bool_]:
         """Whether each trial was carried out, [G, P, T]; raises as `fitness`."""
@@ -76,12 +91,12 @@ class Laboratory:
         return TrialScores(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
 
     def _in_parts(
-        self, groups: Sequence[Group], shape: tuple[int, int], compute: Callable[[Sequence[Group]], Any]
+        self, groups: Sequence[Group], shape: _Shape, compute: Callable[[Sequence[Group]], Any]
     ) -> list[Any]:
         """What `compute` gives for as many groups at a time as there is memory for."""
         parts, done = [], 0
         while done < len(groups):
-            at_once = max(1, min(self.most_groups, MOST_TRIALS // (shape[0] * shape[1])))
+            at_once = max(1, min(self.most_groups, MOST_TRIALS // (shape.n_genotypes * shape.n_trials)))
             part = groups[done : done + at_once]
             try:
                 parts.append(compute(part))
@@ -94,36 +109,38 @@ class Laboratory:
 
     def _mean_fitness(self, groups: Sequence[Group]) -> NDArray[np.float64]:
         """[G, P]."""
-        n_networks, n_trials = _shape(groups)
-        outcomes = self._run(groups)
-        fitness = room(len(groups) * n_networks, wp.float64, self.device)
-        launched(loop.mean_fitness, fitness.shape[0], [outcomes, n_trials, fitness], self.device)
-        return fetched(fitness, self.device).reshape(len(groups), n_networks)
+        shape, outcomes = _shape(groups), self._run(groups)
+        fitness = room(len(groups) * shape.n_genotypes, wp.float64, self.device)
+        launched(loop.mean_fitness, fitness.shape[0], [outcomes, shape.n_trials, fitness], self.device)
+        return fetched(fitness, self.device).reshape(len(groups), shape.n_genotypes)
 
     def _success(self, groups: Sequence[Group]) -> NDArray[np.bool_]:
         """[G, P, T]."""
-        outcomes = self._run(groups)
-        return fetched(outcomes.success, self.device).reshape(len(groups), *_shape(groups)).astype(np.bool_)
+        outcomes, shape = self._run(groups), (len(groups), *_shape(groups)[:2])
+        return fetched(outcomes.success, self.device).reshape(shape).astype(np.bool_)
 
     def _scores(self, groups: Sequence[Group]) -> list[NDArray]:
         """F1, F2, F3, success and steps of one group, each [P, T]."""
-        outcomes, shape = self._run(groups), _shape(groups)
+        outcomes, shape = self._run(groups), _shape(groups)[:2]
         arrays = [outcomes.f1, outcomes.f2, outcomes.f3, outcomes.success, outcomes.steps]
         f1, f2, f3, success, steps = (fetched(each, self.device).reshape(shape) for each in arrays)
         return [f1, f2, f3, success.astype(np.bool_), steps.astype(np.int64)]
 
     def _run(self, groups: Sequence[Group]) -> Any:
         """What becomes of every trial, still on the device."""
-        device, (n_networks, n_trials) = self.device, _shape(groups)
+        device, shape = self.device, _shape(groups)
         for group in groups:
             if group.trials.task is not None:
                 raise DeviceTaskError(group.trials.task)
         worlds = tuple(dict.fromkeys(group.readings for group in groups))
         rows = np.array([worlds.index(group.readings) for group in groups], np.int32)
+        # Whoever has trials of its own is, on the device, a group of one.
+        n_networks = 1 if shape.each_own else shape.n_genotypes
+        rows = np.repeat(rows, shape.n_genotypes // n_networks)
         tables, betas = self._tables(worlds)
         networks = np.concatenate([decode_flat(group.genotypes, group.readings) for group in groups])
         trials = _trials_on(device, [arrays_of(group.trials) for group in groups])
-        outcomes = _room_for_outcomes(device, len(networks) * n_trials)
+        outcomes = _room_for_outcomes(device, len(networks) * shape.n_trials)
         placed_networks = placed(networks, wp.float64, device)
         placed_rows = placed(rows, wp.int32, device)
         drives = room((len(networks), BEND_ROW.value + betas.shape[1]), wp.vec3d, device)
@@ -135,8 +152,8 @@ class Laboratory:
         )
         launched(
             loop.run_trials,
-            len(networks) * n_trials,
-            [placed_networks, placed_rows, n_networks, n_trials, tables, drives, trials, outcomes],
+            len(networks) * shape.n_trials,
+            [placed_networks, placed_rows, n_networks, shape.n_trials, tables, drives, trials, outcomes],
             device,
         )
         self._check_ended(outcomes)
@@ -157,13 +174,21 @@ class Laboratory:
             raise DeviceLostError(self.device.name, said)
 
 
-def _shape(groups: Sequence[Group]) -> tuple[int, int]:
-    """(P, T) of all groups."""
-    shapes = {(len(group.genotypes), len(group.trials)) for group in groups}
+def _shape(groups: Sequence[Group]) -> _Shape:
+    """The size of all groups; raises ValueError if they differ."""
+    shapes = {_shape_of(group) for group in groups}
     if len(shapes) != 1:
-        found = ", ".join(f"{p} x {t}" for p, t in sorted(shapes)) or "no groups"
+        found = ", ".join(f"{p} x {t}" for p, t, _ in sorted(shapes)) or "no groups"
         raise ValueError(f"a batch takes groups of one size, genotypes x trials; these are {found}")
     return shapes.pop()
+
+
+def _shape_of(group: Group) -> _Shape:
+    """The size of a group."""
+    n, n_trials = len(group.genotypes), len(group.trials)
+    if group.each_own and n_trials % n:
+        raise ValueError(f"{n} genotypes cannot have as many trials of their own each of {n_trials}")
+    return _Shape(n, n_trials // n if group.each_own else n_trials, group.each_own)
 
 
 def _parts_of(n_genotypes: int, n_trials: int) -> list[slice]:

@@ -191,6 +191,8 @@ def task_of(task: AnyTask | str) -> Task:
 
 def as_paper(task: AnyTask | str) -> AnyTask:
     """The condition of the paper that a task is, or else the task."""
+    if isinstance(task, Condition):  # asked for each generation
+        return task
     own = task_of(task)
     for condition in Condition:
         if own == Task(third=_third(condition)):

@@ -10,11 +10,11 @@ A agents, X transitions of a test.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import permutations
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,6 @@ from arm2d import (
     ObjectWord,
     Readings,
     Trials,
-    TrialScores,
     draw_trials,
     run_trials,
 )
@@ -37,6 +36,7 @@ from evolution.agents.postevaluation import POST_EVALUATION, TRIALS
 from evolution.agents.subtasks import AgentClass, classify
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array, check_range
+from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
 from evolution.search.randomness import Purpose, generator
 from evolution.search.settings import N_BEST
@@ -130,16 +130,12 @@ def transition_successes(
     transitions: tuple[Transition, ...],
     readings: Readings,
     rng: np.random.Generator,
-    carry_out: Callable[..., TrialScores] = run_trials,
 ) -> NDArray[np.int64]:
-    """Successful trials of 80 of A genotypes in X transitions, [A, X]; all genotypes meet the same trials.
-
-    Trials are carried out by `arm2d.run_trials` or its like.
-    """
+    """Successful trials of 80 of A genotypes in X transitions, [A, X]; all genotypes meet the same trials."""
     if not len(genotypes):
         return np.zeros((0, len(transitions)), np.int64)
     trials = draw_transition_trials(transitions, readings, rng)
-    success = carry_out(genotypes, trials, readings).success
+    success = run_trials(genotypes, trials, readings).success
     return success.reshape(len(genotypes), len(transitions), TRIALS).sum(axis=2)
 
 
@@ -148,30 +144,65 @@ def passes(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
     return np.all(4 * successes > 3 * TRIALS, axis=1)
 
 
-def transition_results(
-    run: RunFolder, span: range, carry_out: Callable[..., TrialScores] = run_trials
-) -> TransitionTest:
-    """The classed agents of some generations, tested; those of a generation meet the same trials."""
-    condition, readings = run.config.papers_condition, run.config.readings
-    actions, objects = action_transitions(condition), object_transitions(condition)
+class Candidates(NamedTuple):
+    """Those of a generation's five best that are to be tested.
+
+    Attributes:
+        generation: Its number.
+        best: The five, [5, 84].
+        ranks: Whom of them, [A].
+    """
+
+    generation: int
+    best: NDArray[np.float64]
+    ranks: NDArray[np.int64]
+
+
+# Successes in the action and in the object transitions, [A, X] each.
+Successes = tuple[NDArray[np.int64], NDArray[np.int64]]
+# Carries out both tests for the candidates of some generations.
+BothTests = Callable[[RunConfig, Sequence[Candidates]], list[Successes]]
+
+
+def both_tests(config: RunConfig, candidates: Sequence[Candidates]) -> list[Successes]:
+    """Both tests of each generation's candidates, who meet the same trials."""
+    actions, objects = both_transitions(config.papers_condition)
+    found = []
+    for generation, best, ranks in candidates:
+        rng = generator(config.seed, Purpose.TRANSITIONS, generation)
+        action = transition_successes(best[ranks], actions, config.readings, rng)
+        found.append((action, transition_successes(best[ranks], objects, config.readings, rng)))
+    return found
+
+
+def both_transitions(condition: Condition) -> tuple[tuple[Transition, ...], tuple[Transition, ...]]:
+    """Those of the action word, and those of the object word."""
+    return action_transitions(condition), object_transitions(condition)
+
+
+def transition_results(run: RunFolder, span: range, tests: BothTests = both_tests) -> TransitionTest:
+    """The classed agents of some generations, tested."""
     evaluated = POST_EVALUATION.read_part(run, span).successes
-    tests = []
-    for (generation, genotypes), successes in zip(best_genotypes(run, span), evaluated, strict=True):
-        classes = np.full(len(genotypes), -1, np.int8)
-        for index, members in enumerate(classify(successes, condition).values()):
-            classes[members] = index
-        ranks = np.flatnonzero(classes >= 0)
-        rng = generator(run.config.seed, Purpose.TRANSITIONS, generation)
-        agents = genotypes[ranks]
-        test = TransitionTest(
+    candidates, classes = [], []
+    for (generation, best), successes in zip(best_genotypes(run, span), evaluated, strict=True):
+        own = np.full(len(best), -1, np.int8)
+        for index, members in enumerate(classify(successes, run.config.papers_condition).values()):
+            own[members] = index
+        candidates.append(Candidates(generation, best, np.flatnonzero(own >= 0)))
+        classes.append(own)
+    results = [
+        TransitionTest(
             generations=np.full(len(ranks), generation, np.int32),
             ranks=ranks.astype(np.int8),
-            classes=classes[ranks],
-            action=transition_successes(agents, actions, readings, rng, carry_out).astype(np.int16),
-            object=transition_successes(agents, objects, readings, rng, carry_out).astype(np.int16),
+            classes=own[ranks],
+            action=action.astype(np.int16),
+            object=object_.astype(np.int16),
         )
-        tests.append(test)
-    return joined(TransitionTest, tests)
+        for (generation, _, ranks), own, (action, object_) in zip(
+            candidates, classes, tests(run.config, candidates), strict=True
+        )
+    ]
+    return joined(TransitionTest, results)
 
 
 def _check(path: Path, arrays: Mapping[str, NDArray], run: RunFolder, span: range) -> None:

@@ -91,7 +91,7 @@ def _run_chains(
     failures = run_jobs(shares.batches(chains, plan.folder), at_once, overseer, start)
     if overseer.wants_stop():
         return failures
-    return failures + run_jobs(shares.later(plan.chains()), at_once, overseer, start)
+    return failures + run_jobs(shares.later(plan.chains(), plan.folder), at_once, overseer, start)
 
 
 def run_plan_shown(

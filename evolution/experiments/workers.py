@@ -32,6 +32,8 @@ class Job:
         folder: Where it writes; files that appear there are its progress.
         log: What it prints is added to this file.
         runs: The names of all its runs, if it has several.
+        on_device: The function that does the same for several runs on a device, if there is one: it is given
+            the device's name and the folders of the runs.
     """
 
     name: str
@@ -41,6 +43,7 @@ class Job:
     folder: Path
     log: Path
     runs: tuple[str, ...] = ()
+    on_device: str = ""
 
     @property
     def run_names(self) -> tuple[str, ...]:

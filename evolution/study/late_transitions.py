@@ -12,26 +12,27 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evolution.agents.parts import best_genotypes, late_spans
 from evolution.agents.subtasks import AgentClass, classify
-from evolution.agents.transitions import action_transitions, object_transitions, passes, transition_successes
+from evolution.agents.transitions import BothTests, Candidates, both_tests, passes
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array, check_range
 from evolution.runs.storage import DamagedFileError, make_folder
-from evolution.search.randomness import Purpose, generator
-from evolution.study.measures import SAMPLE_STEP, RunMeasures
+from evolution.study.measures import RunMeasures, sampled_best
 
 FILE: Final = Path("measures") / "transitions.npz"
 CLASSES: Final = tuple(AgentClass)
 TESTS: Final = ("action", "object")
 
 
-def passed_transitions(folder: RunFolder, measures: RunMeasures) -> NDArray[np.int32]:
+def passed_transitions(
+    folder: RunFolder, measures: RunMeasures, tests: BothTests = both_tests
+) -> NDArray[np.int32]:
     """How many agents of each class pass each test, [3, 2]; kept beside the run.
 
     Args:
         folder: A finished run.
         measures: Of this run; they say which agents belong to a class.
+        tests: Carries them out.
 
     Raises:
         DamagedFileError: If a file of it is damaged.
@@ -45,7 +46,7 @@ def passed_transitions(folder: RunFolder, measures: RunMeasures) -> NDArray[np.i
         except DamagedFileError as error:
             raise DamagedFileError(path, error.found, "remove it and repeat the command") from None
         return arrays["passed"]
-    passed = _test(folder, measures)
+    passed = _test(folder, measures, tests)
     make_folder(path.parent)
     folder.write_arrays(path, {"passed": passed})
     return passed
@@ -56,22 +57,18 @@ def are_tested(path: Path) -> bool:
     return (path / FILE).exists()
 
 
-def _test(folder: RunFolder, measures: RunMeasures) -> NDArray[np.int32]:
-    """Test the sampled generations one by one."""
-    config = folder.config
-    transitions = action_transitions(config.papers_condition), object_transitions(config.papers_condition)
-    sampled = (
-        (generation, genotypes)
-        for span in late_spans(folder)
-        for generation, genotypes in best_genotypes(folder, span)
-        if generation % SAMPLE_STEP == 0
-    )
-    passed = np.zeros((len(CLASSES), len(TESTS)), np.int32)
-    for (generation, genotypes), successes in zip(sampled, measures.successes.sum(axis=-1), strict=True):
-        members = np.stack(list(classify(successes, config.papers_condition).values()))  # [3, 5]
+def _test(folder: RunFolder, measures: RunMeasures, tests: BothTests) -> NDArray[np.int32]:
+    """Test the classed agents of the sampled generations."""
+    candidates, classes = [], []
+    for (generation, best), successes in zip(
+        sampled_best(folder), measures.successes.sum(axis=-1), strict=True
+    ):
+        members = np.stack(list(classify(successes, folder.config.papers_condition).values()))  # [3, 5]
         ranks = np.flatnonzero(members.any(axis=0))
-        rng = generator(config.seed, Purpose.TRANSITIONS, generation)
-        for test, changes in enumerate(transitions):
-            found = passes(transition_successes(genotypes[ranks], changes, config.readings, rng))
-            passed[:, test] += (members[:, ranks] & found).sum(axis=1).astype(np.int32)
+        candidates.append(Candidates(generation, best, ranks))
+        classes.append(members[:, ranks])
+    passed = np.zeros((len(CLASSES), len(TESTS)), np.int32)
+    for members, successes in zip(classes, tests(folder.config, candidates), strict=True):
+        for test, found in enumerate(map(passes, successes)):
+            passed[:, test] += (members & found).sum(axis=1).astype(np.int32)
     return passed

@@ -5,6 +5,7 @@ L sampled generations, 5 ranks, 9 instructions, 2 start areas.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -86,8 +87,16 @@ class RunMeasures:
         return self.successes.mean(axis=(0, 1)) / TRIALS_PER_AREA
 
 
-def measure(folder: RunFolder) -> RunMeasures:
+# Successes [L, 5, 9, 2] of the sampled generations' best.
+Simulate = Callable[[RunFolder], NDArray[np.int16]]
+
+
+def measure(folder: RunFolder, simulate: Simulate | None = None) -> RunMeasures:
     """The measures of a finished run; what had to be simulated is kept beside it.
+
+    Args:
+        folder: The run.
+        simulate: Carries out the trials of the sampled generations' best, if not the processor.
 
     Raises:
         ValueError: If the run is not finished, or too short.
@@ -96,7 +105,7 @@ def measure(folder: RunFolder) -> RunMeasures:
     check_generations(folder.config.settings.generations)
     if len(folder.finished_spans()) < len(folder.spans):
         raise ValueError(f"{folder.path} is not finished; go on with: wordarm study")
-    successes = _late_successes(folder)
+    successes = _late_successes(folder, simulate or simulated)
     first, share = solved_of(folder)
     return RunMeasures(folder.config, plateau_of(folder), first, share, successes)
 
@@ -136,7 +145,7 @@ def plateau_of(folder: RunFolder) -> float:
     return float(np.median(History.join(parts).best))
 
 
-def _late_successes(folder: RunFolder) -> NDArray[np.int16]:
+def _late_successes(folder: RunFolder, simulate: Simulate) -> NDArray[np.int16]:
     path, shape = folder.path / FILE, (len(sampled_generations(folder)), N_BEST, N_INSTRUCTIONS, 2)
     if path.exists():
         try:
@@ -146,18 +155,22 @@ def _late_successes(folder: RunFolder) -> NDArray[np.int16]:
         except DamagedFileError as error:
             raise DamagedFileError(path, error.found, "remove it and repeat the command") from None
         return arrays["successes"]
-    successes = _simulate(folder)
+    successes = simulate(folder)
     make_folder(path.parent)
     generations = np.array(sampled_generations(folder), np.int32)
     folder.write_arrays(path, {"generations": generations, "successes": successes})
     return successes
 
 
-def _simulate(folder: RunFolder) -> NDArray[np.int16]:
-    successes = [
-        successes_by_area(folder.config, generation, genotypes)
-        for span in late_spans(folder)
-        for generation, genotypes in best_genotypes(folder, span)
-        if generation % SAMPLE_STEP == 0
-    ]
+def simulated(folder: RunFolder) -> NDArray[np.int16]:
+    """Successes [L, 5, 9, 2] of the sampled generations' best, each agent in trials of its own."""
+    successes = [successes_by_area(folder.config, *each) for each in sampled_best(folder)]
     return np.array(successes, np.int16).reshape(-1, N_BEST, N_INSTRUCTIONS, 2)
+
+
+def sampled_best(folder: RunFolder) -> Iterator[tuple[int, NDArray[np.float64]]]:
+    """The sampled generations and their five best [5, 84]."""
+    for span in late_spans(folder):
+        for generation, best in best_genotypes(folder, span):
+            if generation % SAMPLE_STEP == 0:
+                yield generation, best

@@ -16,8 +16,8 @@ from arm2d import Condition
 from arm2d.device.errors import DeviceTaskError
 from arm2d.device.opening import CUDA, PROCESSOR, check_name, cuda_names, open_device
 from evolution.child import reference
-from evolution.experiments.device.stages import evolve_batch, test_run_on
-from evolution.experiments.plan import EVOLVING, LOGS, TESTING
+from evolution.experiments.device.stages import evolve_batch
+from evolution.experiments.plan import EVOLVING, LOGS
 from evolution.experiments.workers import Job
 from evolution.search.config import RunConfig
 
@@ -25,6 +25,8 @@ from evolution.search.config import RunConfig
 PROCESSES_PER_DEVICE: Final = 8
 # What a process is told must fit into one message.
 MOST_RUNS: Final = 128
+# Whoever is lost in the middle leaves so many to be tested again at most; starting takes a second.
+MOST_RUNS_TESTED: Final = 8
 
 
 def device_shares(name: str, asked: int | None, threads_there: int | None = None) -> DeviceShares | None:
@@ -81,12 +83,40 @@ class DeviceShares:
         n = max(min(self.processes, len(evolving)), -(-len(evolving) // MOST_RUNS))
         return [[self._batch(evolving, number, n, folder)] for number in range(n)]
 
-    def later(self, chains: Sequence[Sequence[Job]]) -> list[list[Job]]:
-        """What follows evolution; the tests run on the device, too."""
+    def later(self, chains: Sequence[Sequence[Job]], folder: Path) -> list[list[Job]]:
+        """What follows evolution: on the device, some runs to a process, what it can do.
+
+        Args:
+            chains: As those of `batches`.
+            folder: Of the experiment.
+        """
+        jobs = [job for chain in chains if chain[0].stage != EVOLVING for job in chain]
+        by_function: dict[str, list[Job]] = {}
+        for job in jobs:
+            by_function.setdefault(job.on_device, []).append(job)
+        there = by_function.pop("", [])
         return [
-            [self._tested(job, number) for job in chain]
-            for number, chain in enumerate(chains)
-            if chain[0].stage != EVOLVING
+            *([job] for job in there),
+            *([each] for alike in by_function.values() for each in self._tests(alike, folder)),
+        ]
+
+    def _tests(self, jobs: Sequence[Job], folder: Path) -> list[Job]:
+        """Jobs of one kind, some runs to a process."""
+        n = max(min(self.processes, len(jobs)), -(-len(jobs) // MOST_RUNS_TESTED))
+        shared_out = [jobs[len(jobs) * i // n : len(jobs) * (i + 1) // n] for i in range(n)]
+        return [
+            replace(
+                own[0],
+                name=_name_of(own),
+                function=own[0].on_device,
+                arguments={
+                    "device": self._device(number),
+                    "folders": [job.arguments["folder"] for job in own],
+                },
+                folder=folder,
+                runs=tuple(job.name for job in own),
+            )
+            for number, own in enumerate(shared_out)
         ]
 
     def _batch(self, evolving: Sequence[Job], number: int, n: int, folder: Path) -> Job:
@@ -97,17 +127,14 @@ class DeviceShares:
             "device": self._device(number),
             "runs": [(job.arguments["folder"], job.arguments["config"]) for job in jobs],
         }
-        more = f" and {len(jobs) - 1} more" if len(jobs) > 1 else ""
         log = folder / LOGS / f"batch-{number + 1:03d}-of-{n:03d}.log"
         names = tuple(job.name for job in jobs)
-        return Job(names[0] + more, EVOLVING, reference(evolve_batch), arguments, folder, log, names)
-
-    def _tested(self, job: Job, number: int) -> Job:
-        """A job on the device, if it is one of those that can be."""
-        if job.stage != TESTING:
-            return job
-        arguments = {"device": self._device(number), **job.arguments}
-        return replace(job, function=reference(test_run_on), arguments=arguments)
+        return Job(_name_of(jobs), EVOLVING, reference(evolve_batch), arguments, folder, log, names)
 
     def _device(self, number: int) -> str:
         return self.devices[number % len(self.devices)]
+
+
+def _name_of(jobs: Sequence[Job]) -> str:
+    """What a process for some runs is called."""
+    return jobs[0].name + (f" and {len(jobs) - 1} more" if len(jobs) > 1 else "")

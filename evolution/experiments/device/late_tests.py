@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -29,18 +29,23 @@ from evolution.agents.solving import (
 )
 from evolution.agents.transitions import (
     TRANSITION_TEST,
+    Candidates,
+    Successes,
     TransitionTest,
+    both_transitions,
+    draw_transition_trials,
     run_transition_test,
     transition_results,
 )
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_histories
+from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
 from evolution.search.randomness import Purpose, generator
 from evolution.search.settings import N_BEST
 
 if TYPE_CHECKING:
-    from arm2d.device.groups import Laboratory
+    from arm2d.device.groups import Group, Laboratory
 
 Report = Callable[[int, int], None]
 
@@ -95,9 +100,38 @@ def transition_test_on(
     laboratory: Laboratory, run: RunFolder, report: Report | None = None
 ) -> TransitionTest:
     """As `run_transition_test`; raises DeviceLostError too, what was written being whole."""
-    return replace(
-        TRANSITION_TEST, test=lambda run, span: transition_results(run, span, laboratory.run_trials)
-    ).complete(run, report)
+    tests = partial(both_tests_on, laboratory)
+    return replace(TRANSITION_TEST, test=lambda run, span: transition_results(run, span, tests)).complete(
+        run, report
+    )
+
+
+def both_tests_on(
+    laboratory: Laboratory, config: RunConfig, candidates: Sequence[Candidates]
+) -> list[Successes]:
+    """As `both_tests`, all generations in one batch for each test; raises DeviceLostError too."""
+    from arm2d.device.groups import Group
+
+    tested = [each for each in candidates if len(each.ranks)]
+    draws = [generator(config.seed, Purpose.TRANSITIONS, each.generation) for each in tested]
+    successes = []  # [tested, 5, X] of each test
+    for changes in both_transitions(config.papers_condition):
+        groups = [
+            Group(each.best, draw_transition_trials(changes, config.readings, rng), config.readings)
+            for each, rng in zip(tested, draws, strict=True)
+        ]
+        success = laboratory.success(groups) if groups else np.zeros((0, N_BEST, len(changes) * TRIALS))
+        successes.append(success.reshape(len(groups), N_BEST, len(changes), TRIALS).sum(axis=-1))
+    action, object_ = successes
+    place = {each.generation: number for number, each in enumerate(tested)}
+
+    def of(candidate: Candidates) -> Successes:
+        number = place.get(candidate.generation)
+        if number is None:
+            return action[:0, 0], object_[:0, 0]
+        return action[number, candidate.ranks], object_[number, candidate.ranks]
+
+    return [of(each) for each in candidates]
 
 
 def solved_trials_on(laboratory: Laboratory, run: RunFolder) -> NDArray[np.int16]:
@@ -119,13 +153,17 @@ def solved_trials_on(laboratory: Laboratory, run: RunFolder) -> NDArray[np.int16
 
 def _post_evaluated(laboratory: Laboratory, run: RunFolder, span: range) -> PostEvaluation:
     """The agents of some generations in one batch, each in trials of its own."""
-    from arm2d.device.groups import Group
-
-    config, groups = run.config, []
-    for generation, genotypes in best_genotypes(run, span):
-        rng = generator(config.seed, Purpose.POST_EVALUATION, generation)
-        for genotype in genotypes:
-            trials = draw_trials(config.condition.instructions, TRIALS_PER_AREA, config.readings, rng)
-            groups.append(Group(genotype[np.newaxis], trials, config.readings))
+    groups = [own_trials(run.config, *best) for best in best_genotypes(run, span)]
     success = laboratory.success(groups).reshape(len(span), N_BEST, N_INSTRUCTIONS, TRIALS)
     return PostEvaluation(np.array(span, np.int32), success.sum(axis=-1, dtype=np.int16))
+
+
+def own_trials(config: RunConfig, generation: int, genotypes: NDArray[np.float64]) -> Group:
+    """The best of a generation with the trials that `successes_by_area` gives each of them."""
+    from arm2d.device.groups import Group
+
+    rng = generator(config.seed, Purpose.POST_EVALUATION, generation)
+    # Drawn at once, which gives the numbers that drawing for one agent after the other gives.
+    instructions = config.condition.instructions * len(genotypes)
+    trials = draw_trials(instructions, TRIALS_PER_AREA, config.readings, rng)
+    return Group(genotypes, trials, config.readings, each_own=True)

@@ -57,39 +57,32 @@ class DeviceScoring:
 def score_together(
     populations: Sequence[Population], configs: Sequence[RunConfig], laboratory: Laboratory
 ) -> list[NDArray[np.float64]]:
-    """Fitness [P] of each population, runs with groups of one size in one batch.
+    """Fitness [P] of each population, those of one size in one batch.
 
     Raises:
         DeviceMemoryError: If the device has too little memory even for one population.
         DeviceLostError: If it does not answer.
     """
-    groups = [_groups_of(*each) for each in zip(populations, configs, strict=True)]
+    groups = [_group_of(*each) for each in zip(populations, configs, strict=True)]
     fitness: list[NDArray[np.float64]] = [np.empty(0)] * len(groups)
-    by_size: dict[tuple[int, int], list[int]] = {}
-    for run, of_run in enumerate(groups):
-        by_size.setdefault((len(of_run[0].genotypes), len(of_run[0].trials)), []).append(run)
+    by_size: dict[tuple[int, int, bool], list[int]] = {}
+    for run, group in enumerate(groups):
+        size = len(group.genotypes), len(group.trials), group.each_own
+        by_size.setdefault(size, []).append(run)
     for runs in by_size.values():
-        scored = laboratory.fitness([group for run in runs for group in groups[run]])
-        ends = np.cumsum([len(groups[run]) for run in runs])
-        for run, of_run in zip(runs, np.split(scored, ends[:-1]), strict=True):
-            fitness[run] = of_run.reshape(-1)
+        for run, scored in zip(runs, laboratory.fitness([groups[run] for run in runs]), strict=True):
+            fitness[run] = scored
     return fitness
 
 
-def _groups_of(population: Population, config: RunConfig) -> list[Group]:
-    """One group where all genotypes meet the same trials, else one for each (reading `starts_shared`)."""
+def _group_of(population: Population, config: RunConfig) -> Group:
+    """A population with its trials: the same for all, or for each its own (reading `starts_shared`)."""
     from arm2d.device.groups import Group
 
     rng = generator(config.seed, Purpose.TRIALS, population.generation)
-    parts = [population.genotypes]
-    if config.readings.starts_shared == "genotype":
-        parts = [genotype[np.newaxis] for genotype in population.genotypes]
     condition, per_area = config.condition, config.settings.trials_per_area
-    return [
-        Group(
-            genotypes,
-            draw_evolution_trials(condition.experienced, condition, per_area, config.readings, rng),
-            config.readings,
-        )
-        for genotypes in parts
-    ]
+    each_own = config.readings.starts_shared == "genotype"
+    # Drawn at once, which gives the numbers that drawing for one genotype after the other gives.
+    instructions = condition.experienced * (len(population.genotypes) if each_own else 1)
+    trials = draw_evolution_trials(instructions, condition, per_area, config.readings, rng)
+    return Group(population.genotypes, trials, config.readings, each_own)

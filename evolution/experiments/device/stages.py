@@ -6,7 +6,7 @@ Whoever takes the place of a process that lost its device goes on at the checkpo
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -66,20 +66,47 @@ def _exit_code(
     return 0 if all(ended) else INTERRUPTED
 
 
-def test_run_on(device: str, folder: str) -> int:
-    """Carry out the paper's two tests of a finished run on a device, or what is left of them.
+def test_runs_on(device: str, folders: Sequence[str]) -> int:
+    """Carry out the paper's two tests of finished runs on a device, or what is left of them.
 
     Args:
         device: Its name.
-        folder: Of the run.
+        folders: Of the runs.
     """
-    run, tests = RunFolder.open(Path(folder)), tests_on(device)
-    try:
-        with locked(run.path):
-            tests.instructions(run)
-            tests.transitions(run)
-            tests.solved(run)
-    except DeviceLostError as error:
-        print(error, file=sys.stderr)
-        return DEVICE_LOST
+    tests = tests_on(device)
+
+    def test(run: RunFolder) -> None:
+        tests.instructions(run)
+        tests.transitions(run)
+        tests.solved(run)
+
+    return one_by_one(folders, test)
+
+
+def one_by_one(folders: Sequence[str], work: Callable[[RunFolder], None]) -> int:
+    """Do some work on a device for run after run; one that it cannot be done for does not hold up the others.
+
+    Args:
+        folders: Of the runs.
+        work: For one of them.
+
+    Returns:
+        DEVICE_LOST if the device was lost on the way.
+
+    Raises:
+        ValueError: At the end, with what kept it from being done for single runs.
+    """
+    troubles = []
+    for folder in folders:
+        try:
+            run = RunFolder.open(Path(folder))
+            with locked(run.path):
+                work(run)
+        except DeviceLostError as error:
+            print(error, file=sys.stderr)
+            return DEVICE_LOST
+        except ValueError as error:
+            troubles.append(str(error))
+    if troubles:
+        raise ValueError("; ".join(troubles))
     return 0

@@ -25,6 +25,7 @@ from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
 from evolution.study.declared.parts import DeclaredPart
 from evolution.study.declared.rows import MeasuredRun, measured_run, post_evaluated_run, read_rows, write_rows
+from evolution.study.device_measures import measure_on
 from evolution.study.late_transitions import are_tested, passed_transitions
 from evolution.study.measures import is_measured, measure
 
@@ -66,8 +67,9 @@ class MeasuredPlan(Plan):
             return super()._stages(standing)
         path = self.path(standing.config)
         log = self.folder / LOGS / "measures.log"
-        which = {"folder": str(path)}
-        measuring = Job(standing.name, MEASURING, reference(measure_with_transitions), which, path, log)
+        which, on_device = {"folder": str(path)}, reference(measure_on)
+        function = reference(measure_with_transitions)
+        measuring = Job(standing.name, MEASURING, function, which, path, log, on_device=on_device)
         return [measuring] if standing.evolved else [*super()._stages(standing), measuring]
 
 
@@ -143,7 +145,7 @@ def carry_out(
         at_once: Processes at a time.
         stop: An open one; what is at work is then left in good order.
         known: Runs measured elsewhere, which get their rows first.
-        shares: How a device is shared, if one is to evolve the runs; measured they are on the processor.
+        shares: How a device is shared, if one is to run the trials.
 
     Raises:
         ValueError: If the file of rows cannot be understood, or a folder holds another run.
@@ -157,6 +159,7 @@ def carry_out(
 
         def keep(ended: Ended) -> None:
             if ended.exit_code == 0 and ended.job.stage == plan.last_stage:
-                rows.add([plan.row(ended.job.folder)])
+                folders = ended.job.arguments.get("folders", [ended.job.folder])
+                rows.add(plan.row(Path(folder)) for folder in folders)
 
         return run_plan_shown(plan, at_once, stop, on_end=keep, shares=shares)

@@ -73,11 +73,34 @@ def test_groups_of_one_batch_live_in_worlds_of_their_own(laboratory, evolved):
         readings = Readings().with_values(world)
         trials = draw_trials(Condition.WITH_IGNORE.experienced, 1, readings, rng)
         groups.append(Group(genotypes_of(evolved, 4, rng), trials, readings))
-    expected = [run_trials(*group) for group in groups]
+    expected = [run_trials(*group[:3]) for group in groups]
     np.testing.assert_array_equal(
         laboratory.fitness(groups), [mean_in_order(scores.fitness) for scores in expected]
     )
     np.testing.assert_array_equal(laboratory.success(groups), [scores.success for scores in expected])
+
+
+def test_each_genotype_of_a_group_may_have_trials_of_its_own(laboratory, evolved):
+    rng, groups, expected = np.random.default_rng(4), [], []
+    for world in ({}, {"turn": "radians"}):
+        readings = Readings().with_values(world)
+        instructions, genotypes = Condition.WITH_IGNORE.experienced, genotypes_of(evolved, 3, rng)
+        seed = int(rng.integers(1000))
+        one_by_one = np.random.default_rng(seed)
+        own = [draw_trials(instructions, 2, readings, one_by_one) for _ in genotypes]
+        together = draw_trials(instructions * 3, 2, readings, np.random.default_rng(seed))
+        groups.append(Group(genotypes, together, readings, each_own=True))
+        expected.append([run_trials(*each, readings) for each in zip(genotypes, own, strict=True)])
+    fitness = [[mean_in_order(scores.fitness[0]) for scores in group] for group in expected]
+    success = [[scores.success[0] for scores in group] for group in expected]
+    np.testing.assert_array_equal(laboratory.fitness(groups), fitness)
+    np.testing.assert_array_equal(laboratory.success(groups), success)
+
+
+def test_trials_that_cannot_be_shared_out_are_refused(laboratory, evolved):
+    trials = draw_trials("touch red", 2, Readings(), np.random.default_rng(1))
+    with pytest.raises(ValueError, match="3 genotypes cannot have as many trials of their own each of 4"):
+        laboratory.fitness([Group(evolved[:3], trials, Readings(), each_own=True)])
 
 
 def test_groups_of_different_sizes_are_refused(laboratory, evolved):

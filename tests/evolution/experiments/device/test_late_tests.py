@@ -2,20 +2,25 @@
 
 import numpy as np
 
-from arm2d import Condition, Readings
-from evolution.agents.transitions import action_transitions, object_transitions, transition_successes
+from arm2d import Condition
+from evolution.agents.transitions import Candidates, both_tests
+from evolution.experiments.device.late_tests import both_tests_on
 from evolution.runs.meta import versions
+from evolution.search.config import RunConfig
 
 
 def test_transitions_succeed_as_often_as_on_the_processor(laboratory, evolved):
-    for transitions in (action_transitions, object_transitions):
-        asked = transitions(Condition.WITH_INDICATE)[::4]
-        here, there = (
-            transition_successes(evolved[10:18], asked, Readings(), np.random.default_rng(1), *where)
-            for where in ((), (laboratory.run_trials,))
-        )
-        assert here.max() > 40
-        np.testing.assert_array_equal(here, there)
+    config = RunConfig(Condition.WITH_INDICATE, seed=3)
+    ranks = [[0, 2], [], [4]]
+    candidates = [
+        Candidates(10 + number, evolved[10 + 5 * number : 15 + 5 * number], np.array(own, np.int64))
+        for number, own in enumerate(ranks)
+    ]
+    here, there = both_tests(config, candidates), both_tests_on(laboratory, config, candidates)
+    assert max(action.max(initial=0) for action, _ in here) > 40
+    for one, other in zip(here, there, strict=True):
+        for test in (0, 1):
+            np.testing.assert_array_equal(one[test], other[test])
 
 
 def test_a_run_that_a_device_took_part_in_says_with_which_package(laboratory):

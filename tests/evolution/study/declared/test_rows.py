@@ -1,9 +1,14 @@
 """A run's row against the whole post-evaluation, in a run whose late agents master all nine instructions."""
 
+import shutil
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from arm2d.device.opening import CHECK
 from evolution.agents.postevaluation import post_evaluate
+from evolution.agents.solving import file_path
 from evolution.agents.subtasks import AgentClass, categories, classify
 from evolution.agents.transitions import passes, run_transition_test
 from evolution.runs.folder import RunFolder
@@ -12,8 +17,9 @@ from evolution.runs.sources import find_agent
 from evolution.runs.storage import DamagedFileError
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
-from evolution.study import late_transitions
+from evolution.study import late_transitions, measures
 from evolution.study.declared.rows import measured_run, post_evaluated_run
+from evolution.study.device_measures import measure_on
 
 SETTINGS = Settings(population=12, elites=2, parents=6, generations=40)
 SAMPLED = 30  # the only late generation that is a multiple of ten
@@ -84,3 +90,18 @@ def test_damaged_transitions_are_named(run):
         with pytest.raises(DamagedFileError, match=r"its passed are not all in \[0, 5\]"):
             measured_run(run)
     path.write_bytes(before)
+
+
+def test_a_device_measures_what_the_processor_measures(run, tmp_path):
+    pytest.importorskip("warp", reason="the extra gpu is not installed")
+    measured_run(run)
+    copy = RunFolder.open(Path(shutil.copytree(run.path, tmp_path / "copy")))
+    solved = file_path(copy)
+    solved.unlink()
+    shutil.rmtree(copy.path / late_transitions.FILE.parent)
+    assert measure_on(CHECK, [str(copy.path)]) == 0
+    for path in (solved, copy.path / late_transitions.FILE, copy.path / measures.FILE):
+        found, expected = copy.read_arrays(path), run.read_arrays(run.path / path.relative_to(copy.path))
+        assert found.keys() == expected.keys()
+        for name, values in expected.items():
+            np.testing.assert_array_equal(found[name], values, name)
