@@ -81,7 +81,7 @@ class Sizes:
     batches: tuple[int, ...] = (1, 10, 100, 1000)
     experiments: tuple[Experiment, ...] = (Experiment(100, 400, 6000, 8), Experiment(1000, 200, 3000, 16))
     other_shares: tuple[Experiment, ...] = (Experiment(100, 300, 6000, 4), Experiment(100, 300, 6000, 16))
-    registers: tuple[int, ...] = (168, 128)
+    registers: tuple[int, ...] = (255, 128)
     settings: Settings = Settings()  # noqa: RUF009 - frozen
     seconds: float = 10.0
     agents: int = AGENTS_OF_A_PART

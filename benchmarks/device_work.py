@@ -89,7 +89,7 @@ def agents_on_a_device(seconds: float, genotypes: NDArray[np.float64], device: s
             Group(best, draw_trials(instructions, TRIALS_PER_AREA, readings, rng), readings, each_own=True)
             for best in generations
         ]
-        laboratory.success(groups).reshape(n, 9, -1).sum(axis=-1)
+        np.array(laboratory.success(groups)).reshape(n, 9, -1).sum(axis=-1)
 
     return n * _rate(seconds, test)
 

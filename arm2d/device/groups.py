@@ -1,14 +1,14 @@
 """Many populations with trials of their own in one batch, such as a generation of a hundred runs.
 
-Axes: G groups, P genotypes of a group, T trials that each genotype of a group meets: the same for all of
-them, or its own. Groups do not influence one another, so a batch can be cut anywhere: where memory does not
-suffice it is halved, and the size that fitted is kept for the next one.
+Axes: P genotypes of a group, T trials that each of them carries out: the same for all, or its own. Groups
+do not influence one another, so a batch can be cut between any two: where memory does not suffice it is
+halved, and the size that fitted is kept for the next one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, TypeVar
 
 import numpy as np
 import warp as wp
@@ -28,8 +28,10 @@ from arm2d.readings import Readings
 from arm2d.running import arrays_of
 from arm2d.trials import Trials, TrialScores
 
-# Trials in one launch, [G P T]; more gain nothing.
+# Trials in one launch; more gain nothing.
 MOST_TRIALS: Final = 2**22
+
+T = TypeVar("T")
 
 
 class Group(NamedTuple):
@@ -47,13 +49,20 @@ class Group(NamedTuple):
     readings: Readings
     each_own: bool = False
 
+    @property
+    def n_trials(self) -> int:
+        """T; raises ValueError if the trials cannot be shared out among the genotypes."""
+        n, n_trials = len(self.genotypes), len(self.trials)
+        if not self.each_own:
+            return n_trials
+        if n_trials % n:
+            raise ValueError(f"{n} genotypes cannot have as many trials of their own each of {n_trials}")
+        return n_trials // n
 
-class _Shape(NamedTuple):
-    """The size of every group of a batch."""
-
-    n_genotypes: int  # P
-    n_trials: int  # T
-    each_own: bool
+    @property
+    def size(self) -> int:
+        """Trials that are carried out, P T."""
+        return len(self.genotypes) * self.n_trials
 
 
 class Laboratory:
@@ -61,99 +70,98 @@ class Laboratory:
 
     Attributes:
         device: The device.
-        most_groups: Groups at once that fitted into its memory.
+        most_trials: As many at once fitted into its memory.
     """
 
     def __init__(self, device: Device) -> None:
         self.device = device
-        self.most_groups = 2**31
+        self.most_trials = MOST_TRIALS
         self._codes = placed(WORD_CODES.astype(np.int32), wp.int32, device)
         self._worlds: dict[tuple[Readings, ...], tuple[Any, Any]] = {}
 
-    def fitness(self, groups: Sequence[Group]) -> NDArray[np.float64]:
-        """Mean F1 + F2 + F3 of every genotype over its trials, [G, P].
+    def fitness(self, groups: Sequence[Group]) -> list[NDArray[np.float64]]:
+        """Mean F1 + F2 + F3 of every genotype over its trials, [P] for each group.
 
         Raises:
-            ValueError: If the groups are not of one size, or a genotype is unsound.
+            ValueError: If the groups have not as many trials for a genotype each, or a genotype is unsound.
             DeviceMemoryError: If the device has too little memory for a single group.
             DeviceLostError: If it does not answer.
         """
-        return np.concatenate(self._in_parts(groups, _shape(groups), self._mean_fitness))
+        return self._in_parts(groups, self._mean_fitness)
 
-    def success(self, groups: Sequence[Group]) -> NDArray[np.bool_]:
-        """Whether each trial was carried out, [G, P, T]; raises as `fitness`."""
-        return np.concatenate(self._in_parts(groups, _shape(groups), self._success))
+    def success(self, groups: Sequence[Group]) -> list[NDArray[np.bool_]]:
+        """Whether each trial was carried out, [P, T] for each group; raises as `fitness`."""
+        return self._in_parts(groups, self._success)
 
     def run_trials(self, genotypes: NDArray[np.float64], trials: Trials, readings: Readings) -> TrialScores:
         """As `arm2d.run_trials`: scores with arrays [P, T]; raises as `fitness`."""
         groups = [Group(genotypes[part], trials, readings) for part in _parts_of(len(genotypes), len(trials))]
-        parts = [self._in_parts([group], _shape([group]), self._scores)[0] for group in groups]
+        parts = [self._in_parts([group], self._scores)[0] for group in groups]
         return TrialScores(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
 
     def _in_parts(
-        self, groups: Sequence[Group], shape: _Shape, compute: Callable[[Sequence[Group]], Any]
-    ) -> list[Any]:
+        self, groups: Sequence[Group], compute: Callable[[Sequence[Group]], Sequence[T]]
+    ) -> list[T]:
         """What `compute` gives for as many groups at a time as there is memory for."""
-        parts, done = [], 0
+        found, done = [], 0
         while done < len(groups):
-            at_once = max(1, min(self.most_groups, MOST_TRIALS // (shape.n_genotypes * shape.n_trials)))
-            part = groups[done : done + at_once]
+            sizes = np.cumsum([group.size for group in groups[done:]])
+            part = groups[done : done + max(1, int((sizes <= self.most_trials).sum()))]
             try:
-                parts.append(compute(part))
+                found.extend(compute(part))
                 done += len(part)
             except DeviceMemoryError:
                 if len(part) == 1:
                     raise
-                self.most_groups = len(part) // 2
-        return parts
+                self.most_trials = int(sizes[len(part) - 1]) // 2
+        return found
 
-    def _mean_fitness(self, groups: Sequence[Group]) -> NDArray[np.float64]:
-        """[G, P]."""
-        shape, outcomes = _shape(groups), self._run(groups)
-        fitness = room(len(groups) * shape.n_genotypes, wp.float64, self.device)
-        launched(loop.mean_fitness, fitness.shape[0], [outcomes, shape.n_trials, fitness], self.device)
-        return fetched(fitness, self.device).reshape(len(groups), shape.n_genotypes)
+    def _mean_fitness(self, groups: Sequence[Group]) -> list[NDArray[np.float64]]:
+        """[P] of each group."""
+        outcomes, n_networks = self._run(groups), sum(len(group.genotypes) for group in groups)
+        fitness = room(n_networks, wp.float64, self.device)
+        launched(loop.mean_fitness, n_networks, [outcomes, groups[0].n_trials, fitness], self.device)
+        return _by_group(fetched(fitness, self.device), groups)
 
-    def _success(self, groups: Sequence[Group]) -> NDArray[np.bool_]:
-        """[G, P, T]."""
-        outcomes, shape = self._run(groups), (len(groups), *_shape(groups)[:2])
-        return fetched(outcomes.success, self.device).reshape(shape).astype(np.bool_)
+    def _success(self, groups: Sequence[Group]) -> list[NDArray[np.bool_]]:
+        """[P, T] of each group."""
+        success = fetched(self._run(groups).success, self.device).astype(np.bool_)
+        return _by_group(success.reshape(-1, groups[0].n_trials), groups)
 
-    def _scores(self, groups: Sequence[Group]) -> list[NDArray]:
+    def _scores(self, groups: Sequence[Group]) -> list[list[NDArray]]:
         """F1, F2, F3, success and steps of one group, each [P, T]."""
-        outcomes, shape = self._run(groups), _shape(groups)[:2]
+        outcomes, shape = self._run(groups), (-1, groups[0].n_trials)
         arrays = [outcomes.f1, outcomes.f2, outcomes.f3, outcomes.success, outcomes.steps]
         f1, f2, f3, success, steps = (fetched(each, self.device).reshape(shape) for each in arrays)
-        return [f1, f2, f3, success.astype(np.bool_), steps.astype(np.int64)]
+        return [[f1, f2, f3, success.astype(np.bool_), steps.astype(np.int64)]]
 
     def _run(self, groups: Sequence[Group]) -> Any:
         """What becomes of every trial, still on the device."""
-        device, shape = self.device, _shape(groups)
+        device, n_trials = self.device, _trials_of_each(groups)
         for group in groups:
             if group.trials.task is not None:
                 raise DeviceTaskError(group.trials.task)
-        worlds = tuple(dict.fromkeys(group.readings for group in groups))
-        rows = np.array([worlds.index(group.readings) for group in groups], np.int32)
-        # Whoever has trials of its own is, on the device, a group of one.
-        n_networks = 1 if shape.each_own else shape.n_genotypes
-        rows = np.repeat(rows, shape.n_genotypes // n_networks)
-        tables, betas = self._tables(worlds)
+        n_networks = [len(group.genotypes) for group in groups]
+        rows = {world: row for row, world in enumerate(dict.fromkeys(group.readings for group in groups))}
+        tables, betas = self._tables(tuple(rows))
         networks = np.concatenate([decode_flat(group.genotypes, group.readings) for group in groups])
         trials = _trials_on(device, [arrays_of(group.trials) for group in groups])
-        outcomes = _room_for_outcomes(device, len(networks) * shape.n_trials)
+        outcomes = _room_for_outcomes(device, len(networks) * n_trials)
         placed_networks = placed(networks, wp.float64, device)
-        placed_rows = placed(rows, wp.int32, device)
+        worlds = np.repeat([rows[group.readings] for group in groups], n_networks).astype(np.int32)
+        placed_worlds = placed(worlds, wp.int32, device)
+        placed_first = placed(_first_trials(groups), wp.int32, device)
         drives = room((len(networks), BEND_ROW.value + betas.shape[1]), wp.vec3d, device)
         launched(
             loop.tabulate_drives,
             drives.shape,
-            [placed_networks, placed_rows, n_networks, betas, self._codes, drives],
+            [placed_networks, placed_worlds, betas, self._codes, drives],
             device,
         )
         launched(
             loop.run_trials,
-            len(networks) * shape.n_trials,
-            [placed_networks, placed_rows, n_networks, shape.n_trials, tables, drives, trials, outcomes],
+            len(networks) * n_trials,
+            [placed_networks, placed_worlds, placed_first, n_trials, tables, drives, trials, outcomes],
             device,
         )
         self._check_ended(outcomes)
@@ -174,21 +182,28 @@ class Laboratory:
             raise DeviceLostError(self.device.name, said)
 
 
-def _shape(groups: Sequence[Group]) -> _Shape:
-    """The size of all groups; raises ValueError if they differ."""
-    shapes = {_shape_of(group) for group in groups}
-    if len(shapes) != 1:
-        found = ", ".join(f"{p} x {t}" for p, t, _ in sorted(shapes)) or "no groups"
-        raise ValueError(f"a batch takes groups of one size, genotypes x trials; these are {found}")
-    return shapes.pop()
+def _trials_of_each(groups: Sequence[Group]) -> int:
+    """T of all groups; raises ValueError if they differ."""
+    found = {group.n_trials for group in groups}
+    if len(found) != 1:
+        said = " and ".join(map(str, sorted(found))) or "no groups"
+        raise ValueError(f"all genotypes of a batch carry out as many trials each; these are {said}")
+    return found.pop()
 
 
-def _shape_of(group: Group) -> _Shape:
-    """The size of a group."""
-    n, n_trials = len(group.genotypes), len(group.trials)
-    if group.each_own and n_trials % n:
-        raise ValueError(f"{n} genotypes cannot have as many trials of their own each of {n_trials}")
-    return _Shape(n, n_trials // n if group.each_own else n_trials, group.each_own)
+def _first_trials(groups: Sequence[Group]) -> NDArray[np.int32]:
+    """The first of each network's trials, when those of all groups stand in a row, [N]."""
+    starts = np.cumsum([0, *(len(group.trials) for group in groups)])
+    firsts = [
+        start + group.n_trials * np.arange(len(group.genotypes)) * group.each_own
+        for start, group in zip(starts, groups, strict=False)
+    ]
+    return np.concatenate(firsts).astype(np.int32)
+
+
+def _by_group(values: NDArray, groups: Sequence[Group]) -> list[NDArray]:
+    """What is known of all networks in a row, group by group."""
+    return np.split(values, np.cumsum([len(group.genotypes) for group in groups])[:-1])
 
 
 def _parts_of(n_genotypes: int, n_trials: int) -> list[slice]:

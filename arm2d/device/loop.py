@@ -1,7 +1,7 @@
 """One trial from first to last, in one thread: `arm2d.kernel.loop` and `lifetime`.
 
 Thread after thread takes trial after trial of one network, so that neighbours read the same tables. A batch
-is G groups of P networks and T trials: each network of a group meets each of the group's trials.
+is N networks that carry out T trials each, which several of them may have in common, out of M.
 """
 
 import warp as wp
@@ -34,6 +34,8 @@ from arm2d.device.world import Tables, World
 from arm2d.kernel import exchange
 
 NO_CHANGE = wp.int32(exchange.NO_CHANGE)
+# Of a thread. All that it could use are 255: then fewer threads fit, and an H200 took a quarter longer.
+REGISTERS = 168
 
 # Neither products and sums in one rounding nor approximate divisions: the processor has neither.
 wp.set_module_options({"enable_backward": False, "fuse_fp": False, "fast_math": False})
@@ -41,7 +43,7 @@ wp.set_module_options({"enable_backward": False, "fuse_fp": False, "fast_math": 
 
 @wp.struct
 class TrialArrays:
-    """`arm2d.kernel.exchange.TrialArrays` of all groups in a row, [G T]."""
+    """`arm2d.kernel.exchange.TrialArrays` of all trials, [M]."""
 
     action: wp.array[wp.int32]
     object: wp.array[wp.int32]
@@ -54,7 +56,7 @@ class TrialArrays:
 
 @wp.struct
 class Outcomes:
-    """`arm2d.kernel.exchange.Outcomes` of all groups in a row, [G P T]."""
+    """`arm2d.kernel.exchange.Outcomes` of all networks' trials, network after network, [N T]."""
 
     f1: wp.array[wp.float64]
     f2: wp.array[wp.float64]
@@ -67,7 +69,6 @@ class Outcomes:
 def tabulate_drives(
     networks: wp.array2d[wp.float64],
     worlds: wp.array[wp.int32],
-    n_networks: wp.int32,
     betas: wp.array2d[wp.float64],
     codes: wp.array2d[wp.int32],
     drives: wp.array2d[wp.vec3d],
@@ -75,39 +76,48 @@ def tabulate_drives(
     """Fill in one row of one network's table of drives.
 
     Args:
-        networks: [G P, 84].
-        worlds: [G], row of each group's world.
-        n_networks: P.
+        networks: [N, 84].
+        worlds: [N], row of each network's world.
         betas: [W, B] values of beta [deg].
         codes: [7, 3], the words' codes.
-        drives: [G P, 40 + B], to be filled in.
+        drives: [N, 40 + B], to be filled in.
     """
     p, row = wp.tid()
-    drives[p, row] = tabulated_drive(networks, p, row, betas, worlds[p // n_networks], codes)
+    drives[p, row] = tabulated_drive(networks, p, row, betas, worlds[p], codes)
 
 
-@wp.kernel
+@wp.kernel(cuda_max_registers=REGISTERS)
 def run_trials(
     networks: wp.array2d[wp.float64],
     worlds: wp.array[wp.int32],
-    n_networks: wp.int32,
+    first: wp.array[wp.int32],
     n_trials: wp.int32,
     tables: Tables,
     drives: wp.array2d[wp.vec3d],
     trials: TrialArrays,
     outcomes: Outcomes,
 ):
-    """Carry out one trial with one network."""
+    """Carry out one trial with one network.
+
+    Args:
+        networks: [N, 84].
+        worlds: [N], row of each network's world.
+        first: [N], the first of each network's trials, which follow one another.
+        n_trials: T.
+        tables: Of the worlds.
+        drives: [N, 40 + B], as tabulated.
+        trials: All of them.
+        outcomes: To be filled in.
+    """
     thread = wp.tid()
     p = thread // n_trials
-    group = p // n_networks
-    trial = group * n_trials + thread % n_trials
-    world = tables.worlds[worlds[group]]
+    trial = first[p] + thread % n_trials
+    world = tables.worlds[worlds[p]]
     network = network_of(networks, p)
     lane = start(trial, trials, world, tables)
     lane.z = outputs(network.bias)
-    first = trials.heard[trial, 0]
-    lane = hear(lane, drives, p, first[0], first[1])
+    said = trials.heard[trial, 0]
+    lane = hear(lane, drives, p, said[0], said[1])
     while lane.done == 0:
         if world.from_end == 0:
             lane = sense_camera(lane, world)

@@ -28,7 +28,7 @@ def draw_evolution_trials(
         ValueError: If an instruction is not among those the condition lets agents experience.
     """
     experienced = condition.experienced
-    for instruction in instructions:
+    for instruction in dict.fromkeys(instructions):
         if instruction not in experienced:
             raise ValueError(
                 f"non-experienced instruction {instruction.action.name} {instruction.object.name} "

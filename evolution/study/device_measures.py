@@ -47,6 +47,6 @@ def _measure(laboratory: Laboratory, run: RunFolder) -> None:
 def simulated_on(laboratory: Laboratory, run: RunFolder) -> NDArray[np.int16]:
     """As `measures.simulated`; raises DeviceLostError too."""
     groups = [own_trials(run.config, *best) for best in sampled_best(run)]
-    success = laboratory.success(groups)  # [L, 5, 720]
+    success = np.array(laboratory.success(groups))  # [L, 5, 720]
     by_area = success.reshape(len(groups), N_BEST, N_INSTRUCTIONS, 2, TRIALS_PER_AREA)
     return by_area.sum(axis=-1, dtype=np.int16)

@@ -120,7 +120,7 @@ def both_tests_on(
             Group(each.best, draw_transition_trials(changes, config.readings, rng), config.readings)
             for each, rng in zip(tested, draws, strict=True)
         ]
-        success = laboratory.success(groups) if groups else np.zeros((0, N_BEST, len(changes) * TRIALS))
+        success = np.array(laboratory.success(groups))
         successes.append(success.reshape(len(groups), N_BEST, len(changes), TRIALS).sum(axis=-1))
     action, object_ = successes
     place = {each.generation: number for number, each in enumerate(tested)}
@@ -146,7 +146,8 @@ def solved_trials_on(laboratory: Laboratory, run: RunFolder) -> NDArray[np.int16
             Group(genotypes, trials_of(run.config, int(generation)), run.config.readings)
             for generation, genotypes in zip(history.generations, history.best_genotypes, strict=True)
         ]
-        solved.append(laboratory.success(groups).sum(axis=-1, dtype=np.int16).max(axis=-1))
+        success = np.array(laboratory.success(groups))  # [generations, 5, trials]
+        solved.append(success.sum(axis=-1, dtype=np.int16).max(axis=-1))
     keep_solved_trials(run, np.concatenate(solved))
     return read_solved_trials(run)
 
@@ -154,7 +155,7 @@ def solved_trials_on(laboratory: Laboratory, run: RunFolder) -> NDArray[np.int16
 def _post_evaluated(laboratory: Laboratory, run: RunFolder, span: range) -> PostEvaluation:
     """The agents of some generations in one batch, each in trials of its own."""
     groups = [own_trials(run.config, *best) for best in best_genotypes(run, span)]
-    success = laboratory.success(groups).reshape(len(span), N_BEST, N_INSTRUCTIONS, TRIALS)
+    success = np.array(laboratory.success(groups)).reshape(len(span), N_BEST, N_INSTRUCTIONS, TRIALS)
     return PostEvaluation(np.array(span, np.int32), success.sum(axis=-1, dtype=np.int16))
 
 

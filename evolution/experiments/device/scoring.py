@@ -57,7 +57,7 @@ class DeviceScoring:
 def score_together(
     populations: Sequence[Population], configs: Sequence[RunConfig], laboratory: Laboratory
 ) -> list[NDArray[np.float64]]:
-    """Fitness [P] of each population, those of one size in one batch.
+    """Fitness [P] of each population, those that meet as many trials in one batch.
 
     Raises:
         DeviceMemoryError: If the device has too little memory even for one population.
@@ -65,11 +65,10 @@ def score_together(
     """
     groups = [_group_of(*each) for each in zip(populations, configs, strict=True)]
     fitness: list[NDArray[np.float64]] = [np.empty(0)] * len(groups)
-    by_size: dict[tuple[int, int, bool], list[int]] = {}
+    alike: dict[int, list[int]] = {}
     for run, group in enumerate(groups):
-        size = len(group.genotypes), len(group.trials), group.each_own
-        by_size.setdefault(size, []).append(run)
-    for runs in by_size.values():
+        alike.setdefault(group.n_trials, []).append(run)
+    for runs in alike.values():
         for run, scored in zip(runs, laboratory.fitness([groups[run] for run in runs]), strict=True):
             fitness[run] = scored
     return fitness

@@ -103,11 +103,18 @@ def test_trials_that_cannot_be_shared_out_are_refused(laboratory, evolved):
         laboratory.fitness([Group(evolved[:3], trials, Readings(), each_own=True)])
 
 
-def test_groups_of_different_sizes_are_refused(laboratory, evolved):
-    trials = draw_trials("touch red", 1, Readings(), np.random.default_rng(1))
-    groups = [Group(evolved[:n], trials, Readings()) for n in (2, 3)]
-    with pytest.raises(ValueError, match="groups of one size, genotypes x trials; these are 2 x 2, 3 x 2"):
-        laboratory.fitness(groups)
+def test_groups_may_have_more_genotypes_or_fewer_but_not_other_numbers_of_trials(laboratory, evolved):
+    rng, readings = np.random.default_rng(1), Readings()
+    one, two = (draw_trials("touch red", n, readings, rng) for n in (1, 2))
+    groups = [Group(evolved[10 : 10 + n], one, readings) for n in (2, 3)]
+    groups.append(Group(evolved[15:17], two, readings, each_own=True))
+    both, three, own = laboratory.success(groups)
+    np.testing.assert_array_equal(both, run_trials(*groups[0][:3]).success)
+    np.testing.assert_array_equal(three, run_trials(*groups[1][:3]).success)
+    expected = run_trials(evolved[15:17], two, readings).success
+    np.testing.assert_array_equal(own, [expected[0, :2], expected[1, 2:]])
+    with pytest.raises(ValueError, match="carry out as many trials each; these are 2 and 4"):
+        laboratory.fitness([groups[0], Group(evolved[:1], two, readings)])
 
 
 def instructions_for_cuda(module, folder):

@@ -50,7 +50,7 @@ def test_a_batch_that_does_not_fit_into_the_memory_is_made_smaller(fresh, groups
     asked = limit_memory(monkeypatch, LARGEST)
     expected = [mean_in_order(run_trials(*group[:3]).fitness) for group in groups]
     np.testing.assert_array_equal(fresh.fitness(groups), expected)
-    assert fresh.most_groups == 3  # of 7
+    assert fresh.most_trials == 7 * 4 * 14 // 2
     asked.clear()
     np.testing.assert_array_equal(fresh.fitness(groups), expected)
     assert 7 * 4 * 14 not in asked  # what did not fit is not asked for again
