@@ -85,13 +85,18 @@ def _run_chains(
     start: Start,
     shares: DeviceShares | None,
 ) -> tuple[Failure, ...]:
-    """Run the stages of a plan; on a device, batches of runs first, and what follows them afterwards."""
+    """Run the stages of a plan; on a device wave by wave, batches of runs first, then what follows them."""
     if shares is None:
         return run_jobs(chains, at_once, overseer, start)
-    failures = run_jobs(shares.batches(chains, plan.folder), at_once, overseer, start)
-    if overseer.wants_stop():
-        return failures
-    return failures + run_jobs(shares.later(plan.chains(), plan.folder), at_once, overseer, start)
+    failures = ()
+    for wave in shares.waves(chains):
+        failures += run_jobs(shares.batches(wave, plan.folder), at_once, overseer, start)
+        if overseer.wants_stop():
+            break
+        names = {chain[0].name for chain in wave}
+        evolved = [chain for chain in plan.chains() if chain[0].name in names]
+        failures += run_jobs(shares.later(evolved, plan.folder), at_once, overseer, start)
+    return failures
 
 
 def run_plan_shown(

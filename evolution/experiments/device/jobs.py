@@ -57,10 +57,13 @@ class DeviceShares:
     Attributes:
         devices: Their names; the batches take them in turn.
         processes: That share them, all together.
+        runs_at_once: So many are evolved and tested before others are begun; by default all at once, which is
+            fastest.
     """
 
     devices: tuple[str, ...]
     processes: int
+    runs_at_once: int | None = None
 
     def check(self, configs: Iterable[RunConfig]) -> None:
         """Refuse runs whose task the devices do not know, before anything is written.
@@ -71,6 +74,11 @@ class DeviceShares:
         for config in configs:
             if not isinstance(config.condition, Condition):
                 raise DeviceTaskError(config.condition)
+
+    def waves(self, chains: Sequence[Sequence[Job]]) -> list[Sequence[Sequence[Job]]]:
+        """The stages of as many runs as are done at once, and then of others."""
+        size = self.runs_at_once or max(len(chains), 1)
+        return [chains[first : first + size] for first in range(0, len(chains), size)]
 
     def batches(self, chains: Sequence[Sequence[Job]], folder: Path) -> list[list[Job]]:
         """Jobs that evolve what is not evolved yet, runs that follow each other in one batch.

@@ -30,6 +30,8 @@ from evolution.study.late_transitions import are_tested, passed_transitions
 from evolution.study.measures import is_measured, measure
 
 MEASURING: Final = "measuring"
+# On a device: enough to keep it busy, few enough that rows come every few minutes.
+RUNS_AT_ONCE: Final = 256
 
 
 @dataclass(frozen=True)
@@ -162,4 +164,5 @@ def carry_out(
                 folders = ended.job.arguments.get("folders", [ended.job.folder])
                 rows.add(plan.row(Path(folder)) for folder in folders)
 
-        return run_plan_shown(plan, at_once, stop, on_end=keep, shares=shares)
+        waves = shares and replace(shares, runs_at_once=RUNS_AT_ONCE)
+        return run_plan_shown(plan, at_once, stop, on_end=keep, shares=waves)

@@ -5,9 +5,11 @@ from dataclasses import replace
 
 import pytest
 
+from evolution.child import reference
+from evolution.experiments.device import stages
 from evolution.experiments.device.jobs import MOST_RUNS, DeviceShares, device_shares
 from evolution.experiments.fork_server import LARGEST_MESSAGE
-from evolution.experiments.plan import Plan
+from evolution.experiments.plan import TESTING, Plan
 from tests.evolution.small_runs import SMALL
 
 
@@ -38,6 +40,32 @@ def test_a_thousand_runs_fit_into_the_messages_of_a_few_processes(tmp_path):
     assert max(len(job.runs) for job in jobs) <= MOST_RUNS
     for job in jobs:
         assert len(json.dumps({"function": job.function, "arguments": job.arguments})) < LARGEST_MESSAGE
+
+
+def test_what_follows_evolution_is_done_for_some_runs_in_each_process(tmp_path):
+    plan, shares = plan_of(19, tmp_path), DeviceShares(("cuda:0", "cuda:1"), 2)
+    evolved = [chain[1:] for chain in plan.chains()]
+    jobs = [job for chain in shares.later(evolved, tmp_path) for job in chain]
+    assert [len(job.runs) for job in jobs] == [6, 6, 7]
+    assert [job.arguments["device"] for job in jobs] == ["cuda:0", "cuda:1", "cuda:0"]
+    folders = [folder for job in jobs for folder in job.arguments["folders"]]
+    assert folders == [str(plan.path(config)) for config in plan.configs]
+    assert {(job.stage, job.function) for job in jobs} == {(TESTING, reference(stages.test_runs_on))}
+    assert jobs[0].name == "with-indicate, seed 0 and 5 more"
+
+
+def test_what_no_device_can_do_stays_on_the_processor(tmp_path):
+    plan, shares = plan_of(2, tmp_path), DeviceShares(("cuda",), 2)
+    alone = [[replace(chain[1], on_device="")] for chain in plan.chains()]
+    assert shares.later(alone, tmp_path) == alone
+
+
+def test_runs_come_in_waves_where_that_is_asked_for(tmp_path):
+    chains = plan_of(7, tmp_path).chains()
+    waves = replace(DeviceShares(("cuda",), 2), runs_at_once=3).waves(chains)
+    assert [len(wave) for wave in waves] == [3, 3, 1]
+    assert [chain for wave in waves for chain in wave] == chains
+    assert DeviceShares(("cuda",), 2).waves(chains) == [chains]
 
 
 def test_the_processor_is_shared_as_ever_and_a_cluster_by_its_workers():

@@ -9,12 +9,15 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, Readings
+from arm2d.device.opening import CHECK
 from arm2d.readings import choices
 from evolution.cli import main
+from evolution.experiments.device.jobs import DeviceShares
 from evolution.runs.folder import RunFolder
+from evolution.runs.interrupt import StopRequest
 from evolution.study.declared.factors import FACTORS, balanced_worlds, levels_of, world_of
 from evolution.study.declared.parts import factorial, is_held_back
-from evolution.study.declared.plan import RowFile
+from evolution.study.declared.plan import RowFile, carry_out
 from evolution.study.declared.rows import COUNTS, measured_run, read_rows, write_rows
 from tests.evolution.runs.golden import ALTERNATIVES
 
@@ -101,9 +104,6 @@ def studied(tmp_path_factory):
     folder = tmp_path_factory.mktemp("study")
     part = factorial(30)
     few = type(part)(part.name, part.configs[:4], part.names)
-    from evolution.runs.interrupt import StopRequest
-    from evolution.study.declared.plan import carry_out
-
     rows = RowFile(folder / "rows.csv", few)
     with StopRequest() as stop:
         assert carry_out(rows, folder / "factorial", 2, stop) == ()
@@ -118,6 +118,17 @@ def test_every_run_has_a_row_as_soon_as_it_is_measured(studied):
         again = measured_run(RunFolder.open(plan.path(config)))
         assert (again.config, again.plateau, again.counts) == (config, run.plateau, run.counts)
         np.testing.assert_array_equal(again.successes, run.successes)
+
+
+def test_a_device_gives_the_rows_that_the_processor_gives(studied, tmp_path):
+    pytest.importorskip("warp", reason="the extra gpu is not installed")
+    _, rows = studied
+    one = type(rows.part)(rows.part.name, rows.part.configs[:1], rows.part.names)
+    there = RowFile(tmp_path / "rows.csv", one)
+    with StopRequest() as stop:
+        shares = DeviceShares((CHECK,), 1)
+        assert carry_out(there, tmp_path / "factorial", 1, stop, shares=shares) == ()
+    assert there.path.read_text().splitlines() == rows.path.read_text().splitlines()[:2]
 
 
 def test_runs_whose_row_is_there_are_not_evolved_again(studied, tmp_path):
