@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Final
 
 from evolution.child import reference
-from evolution.experiments.device.stages import test_runs_on
 from evolution.experiments.stages import evolve_run, test_run
 from evolution.experiments.standing import Pace, Standing, pace_of, standing_of
 from evolution.experiments.variants import Variant, common_settings
@@ -100,8 +99,7 @@ class Plan:
         log = self.folder / LOGS / f"{'-'.join(path.relative_to(self.folder).parts)}.log"
         run = {"folder": str(path), "config": config.to_mapping()}
         evolve = Job(standing.name, EVOLVING, reference(evolve_run), run, path, log)
-        which, on_device = {"folder": str(path)}, reference(test_runs_on)
-        test = Job(standing.name, TESTING, reference(test_run), which, path, log, on_device=on_device)
+        test = Job(standing.name, TESTING, reference(test_run), {"folder": str(path)}, path, log)
         stages = [evolve, test] if self.post_evaluate else [evolve]
         return stages[1:] if standing.evolved else stages
 

@@ -16,8 +16,8 @@ from arm2d import Condition
 from arm2d.device.errors import DeviceTaskError
 from arm2d.device.opening import CUDA, PROCESSOR, check_name, cuda_names, open_device
 from evolution.child import reference
-from evolution.experiments.device.stages import evolve_batch
-from evolution.experiments.plan import EVOLVING, LOGS
+from evolution.experiments.device.stages import evolve_batch, test_runs_on
+from evolution.experiments.plan import EVOLVING, LOGS, TESTING
 from evolution.experiments.workers import Job
 from evolution.search.config import RunConfig
 
@@ -99,24 +99,26 @@ class DeviceShares:
             folder: Of the experiment.
         """
         jobs = [job for chain in chains if chain[0].stage != EVOLVING for job in chain]
+        tests = reference(test_runs_on)
         by_function: dict[str, list[Job]] = {}
         for job in jobs:
-            by_function.setdefault(job.on_device, []).append(job)
+            function = job.on_device or (tests if job.stage == TESTING else "")
+            by_function.setdefault(function, []).append(job)
         there = by_function.pop("", [])
         return [
             *([job] for job in there),
-            *([each] for alike in by_function.values() for each in self._tests(alike, folder)),
+            *([each] for it, alike in by_function.items() for each in self._together(it, alike, folder)),
         ]
 
-    def _tests(self, jobs: Sequence[Job], folder: Path) -> list[Job]:
-        """Jobs of one kind, some runs to a process."""
+    def _together(self, function: str, jobs: Sequence[Job], folder: Path) -> list[Job]:
+        """Jobs that one function does, some runs to a process."""
         n = max(min(self.processes, len(jobs)), -(-len(jobs) // MOST_RUNS_TESTED))
         shared_out = [jobs[len(jobs) * i // n : len(jobs) * (i + 1) // n] for i in range(n)]
         return [
             replace(
                 own[0],
                 name=_name_of(own),
-                function=own[0].on_device,
+                function=function,
                 arguments={
                     "device": self._device(number),
                     "folders": [job.arguments["folder"] for job in own],

@@ -56,7 +56,7 @@ def test_what_follows_evolution_is_done_for_some_runs_in_each_process(tmp_path):
 
 def test_what_no_device_can_do_stays_on_the_processor(tmp_path):
     plan, shares = plan_of(2, tmp_path), DeviceShares(("cuda",), 2)
-    alone = [[replace(chain[1], on_device="")] for chain in plan.chains()]
+    alone = [[replace(chain[1], stage="measuring")] for chain in plan.chains()]
     assert shares.later(alone, tmp_path) == alone
 
 
