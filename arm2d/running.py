@@ -30,15 +30,17 @@ def run_trials(
     trials: Trials,
     readings: Readings | None = None,
     *,
+    each_own: bool = False,
     threads: int = 1,
     word_codes: NDArray[np.int64] | None = None,
 ) -> TrialScores:
-    """Run every trial with every genotype.
+    """Run every trial with every genotype, or each genotype's own trials with it.
 
     Args:
         genotypes: [P, 84], genes in [0, 1]; a single one [84] is a batch of one.
-        trials: T trials, the same for all genotypes.
+        trials: T trials, the same for all genotypes; or P T, those of one genotype after those of another.
         readings: The world; the default readings if none are given.
+        each_own: Whether each genotype has trials of its own.
         threads: Genotypes are shared out among so many threads. The results do not depend on it.
         word_codes: [7, 3], how three object words, then four action words are heard; by default as the
             trials' task, or else spec section 4, has them. A lesion experiment changes a row.
@@ -47,28 +49,45 @@ def run_trials(
         Scores with arrays [P, T].
 
     Raises:
-        ValueError: If a genotype has another shape, or a gene is not a number in [0, 1].
+        ValueError: If a genotype has another shape, a gene is not a number in [0, 1], or the trials cannot be
+            shared out among the genotypes.
     """
     readings = readings or Readings()
     if threads < 1:
         raise ValueError(f"asked for {threads} threads; there must be at least 1")
     genes = check_genotypes(genotypes)
+    n_trials = own_trials_of_each(len(genes), len(trials)) if each_own else len(trials)
     networks, arrays = decode_flat(genes, readings), arrays_of(trials)
     codes = codes_of(trials) if word_codes is None else word_codes
     world, tables = world_of(readings), tables_of(readings)._replace(codes=codes)
-    outcomes = empty_outcomes(len(genes), len(trials))
+    outcomes = empty_outcomes(len(genes), n_trials)
 
     def run(part: slice) -> None:
         own = exchange.Outcomes._make(each[part] for each in outcomes)
         run_population(networks[part], arrays, world, tables, own, NO_RECORDING)
 
-    parts = _parts(len(genes), threads)
+    def run_own(part: slice) -> None:
+        for p in range(part.start, part.stop):
+            trials_of_p = arrays._make(each[n_trials * p : n_trials * (p + 1)] for each in arrays)
+            own = exchange.Outcomes._make(each[p : p + 1] for each in outcomes)
+            run_population(networks[p : p + 1], trials_of_p, world, tables, own, NO_RECORDING)
+
+    parts, run = _parts(len(genes), threads), run_own if each_own else run
     if len(parts) == 1:
         run(parts[0])
     else:
         with ThreadPoolExecutor(len(parts)) as pool:
             list(pool.map(run, parts))
     return TrialScores(*outcomes)
+
+
+def own_trials_of_each(n_genotypes: int, n_trials: int) -> int:
+    """How many trials of its own each genotype has; raises ValueError if they cannot be shared out."""
+    if n_trials % n_genotypes:
+        raise ValueError(
+            f"{n_genotypes} genotypes cannot have as many trials of their own each of {n_trials}"
+        )
+    return n_trials // n_genotypes
 
 
 def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None = None) -> TrialRecord:

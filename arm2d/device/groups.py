@@ -25,7 +25,7 @@ from arm2d.device.world import worlds_on
 from arm2d.kernel.exchange import TrialArrays
 from arm2d.kernel.world import WORD_CODES
 from arm2d.readings import Readings
-from arm2d.running import arrays_of
+from arm2d.running import arrays_of, own_trials_of_each
 from arm2d.trials import Trials, TrialScores
 
 # Trials in one launch; more gain nothing.
@@ -52,12 +52,8 @@ class Group(NamedTuple):
     @property
     def n_trials(self) -> int:
         """T; raises ValueError if the trials cannot be shared out among the genotypes."""
-        n, n_trials = len(self.genotypes), len(self.trials)
-        if not self.each_own:
-            return n_trials
-        if n_trials % n:
-            raise ValueError(f"{n} genotypes cannot have as many trials of their own each of {n_trials}")
-        return n_trials // n
+        n_trials = len(self.trials)
+        return own_trials_of_each(len(self.genotypes), n_trials) if self.each_own else n_trials
 
     @property
     def size(self) -> int:

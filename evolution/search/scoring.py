@@ -42,19 +42,16 @@ def score_population(population: Population, config: RunConfig) -> NDArray[np.fl
 
     All genotypes meet the same trials, or each its own (reading `starts_shared`).
     """
+    trials, each_own = trials_of(population, config)
+    scores = run_trials(population.genotypes, trials, config.readings, each_own=each_own)
+    return mean_in_order(scores.fitness)
+
+
+def trials_of(population: Population, config: RunConfig) -> tuple[Trials, bool]:
+    """Fresh trials of a generation, and whether each genotype has its own: then one after the other's."""
     rng = generator(config.seed, Purpose.TRIALS, population.generation)
-    if config.readings.starts_shared == "genotype":
-        scores = [_score(genotype[np.newaxis], config, rng) for genotype in population.genotypes]
-        return np.concatenate(scores)
-    return _score(population.genotypes, config, rng)
-
-
-def _score(
-    genotypes: NDArray[np.float64], config: RunConfig, rng: np.random.Generator
-) -> NDArray[np.float64]:
-    """Fitness [P] of genotypes that meet the same fresh trials."""
-    condition, readings = config.condition, config.readings
-    trials = draw_evolution_trials(
-        condition.experienced, condition, config.settings.trials_per_area, readings, rng
-    )
-    return mean_in_order(run_trials(genotypes, trials, readings).fitness)
+    condition, per_area = config.condition, config.settings.trials_per_area
+    each_own = config.readings.starts_shared == "genotype"
+    # Drawn at once: the numbers that drawing for one after the other gives, unless places are dealt.
+    instructions = condition.experienced * (len(population.genotypes) if each_own else 1)
+    return draw_evolution_trials(instructions, condition, per_area, config.readings, rng), each_own

@@ -212,3 +212,22 @@ def test_recording_more_than_one_trial_is_refused(population):
     genotypes, trials = population
     with pytest.raises(ValueError, match="a recording takes one genotype and one trial, not 1 and 90"):
         record_trial(genotypes[0], trials)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_genotypes_with_trials_of_their_own_score_as_one_by_one(evolved, threads):
+    readings, rng = Readings(), np.random.default_rng(12)
+    genotypes, instructions = genotypes_of(evolved, 3, rng), Condition.WITH_IGNORE.instructions
+    together = draw_trials(instructions * 3, 1, readings, np.random.default_rng(6))
+    one_by_one = np.random.default_rng(6)
+    found = run_trials(genotypes, together, readings, each_own=True, threads=threads)
+    for p, genotype in enumerate(genotypes):
+        alone = run_trials(genotype, draw_trials(instructions, 1, readings, one_by_one), readings)
+        for name, values in vars(alone).items():
+            np.testing.assert_array_equal(getattr(found, name)[p : p + 1], values, name)
+
+
+def test_trials_that_cannot_be_shared_out_among_genotypes_are_refused(evolved):
+    trials = draw_trials("touch red", 2, Readings(), np.random.default_rng(1))
+    with pytest.raises(ValueError, match="3 genotypes cannot have as many trials of their own each of 4"):
+        run_trials(evolved[:3], trials, Readings(), each_own=True)

@@ -12,8 +12,7 @@ from arm2d import Readings, Trials, TrialScores, run_trials
 from arm2d.device.errors import DeviceLostError, DeviceMemoryError
 from evolution.search.config import RunConfig
 from evolution.search.population import Population
-from evolution.search.randomness import Purpose, generator
-from evolution.search.scoring import draw_evolution_trials, score_population
+from evolution.search.scoring import score_population, trials_of
 
 if TYPE_CHECKING:
     from arm2d.device.groups import Group, Laboratory
@@ -78,10 +77,5 @@ def _group_of(population: Population, config: RunConfig) -> Group:
     """A population with its trials: the same for all, or for each its own (reading `starts_shared`)."""
     from arm2d.device.groups import Group
 
-    rng = generator(config.seed, Purpose.TRIALS, population.generation)
-    condition, per_area = config.condition, config.settings.trials_per_area
-    each_own = config.readings.starts_shared == "genotype"
-    # Drawn at once, which gives the numbers that drawing for one genotype after the other gives.
-    instructions = condition.experienced * (len(population.genotypes) if each_own else 1)
-    trials = draw_evolution_trials(instructions, condition, per_area, config.readings, rng)
+    trials, each_own = trials_of(population, config)
     return Group(population.genotypes, trials, config.readings, each_own)

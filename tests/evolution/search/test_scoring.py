@@ -3,11 +3,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from arm2d import NON_EXPERIENCED, Condition, Instruction, Readings
+from arm2d import NON_EXPERIENCED, Condition, Instruction, Readings, draw_trials, run_trials
 from evolution.search import scoring
-from evolution.search.algorithm import initial_genotypes
+from evolution.search.algorithm import initial_genotypes, mean_in_order
 from evolution.search.config import RunConfig
 from evolution.search.population import Population, first_population
+from evolution.search.randomness import Purpose, generator
 from evolution.search.scoring import draw_evolution_trials, score_population
 from evolution.search.settings import LARGEST_FITNESS, LARGEST_TRIAL_FITNESS, Settings
 
@@ -42,20 +43,22 @@ def test_drawing_a_non_experienced_instruction_for_evolution_is_an_error(words):
         draw_evolution_trials([instruction], Condition.WITH_INDICATE, 2, Readings(), np.random.default_rng(0))
 
 
-def test_fitness_is_the_mean_over_28_trials_of_the_generation(monkeypatch):
-    sizes = []
+def test_fitness_is_the_mean_over_28_trials_of_the_generation():
+    for config in (SHARED, OWN):
+        population = first_population(config)
+        rng = generator(config.seed, Purpose.TRIALS)
 
-    def spy(genotypes, trials, readings):
-        sizes.append((len(genotypes), len(trials)))
-        return run(genotypes, trials, readings)
+        def draw(config=config, rng=rng):
+            return draw_trials(config.condition.experienced, 2, config.readings, rng)
 
-    run = scoring.run_trials
-    monkeypatch.setattr(scoring, "run_trials", spy)
-    assert score_population(first_population(SHARED), SHARED).shape == (10,)
-    assert sizes == [(10, 28)]
-    sizes.clear()
-    assert score_population(first_population(OWN), OWN).shape == (10,)
-    assert sizes == [(1, 28)] * 10
+        n = len(population.genotypes)
+        trials = [draw() for _ in range(n)] if config is OWN else [draw()] * n
+        scores = [
+            run_trials(*each, config.readings) for each in zip(population.genotypes, trials, strict=True)
+        ]
+        assert {each.fitness.shape for each in scores} == {(1, 28)}
+        expected = [float(mean_in_order(each.fitness)[0]) for each in scores]
+        assert score_population(population, config).tolist() == expected
 
 
 def test_trials_differ_between_generations_and_repeat_within_one():
