@@ -1,12 +1,15 @@
 """The robot's motors in trials of an agent: tracking, effort, time; without objects in the way, and with.
 
-python -m benchmarks.physics [CHAMPION.npz]
+python -m benchmarks.physics [--still] [CHAMPION.npz]
+
+With --still the robot's head is held, as a robot without a presence has it.
 """
 
 from __future__ import annotations
 
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +18,7 @@ from rich.table import Table
 
 from arm2d import Condition, Readings, Trials, draw_trials
 from models.robots import get_robot
-from mujoco_port.acting.exertion import Exertion, exertion, tracking_errors
+from mujoco_port.acting.exertion import Exertion, exertion, head_exertion, tracking_errors
 from mujoco_port.acting.eyes import geometric_eyes
 from mujoco_port.acting.lab import Lab, instruction_of
 from mujoco_port.acting.open_loop import OpenLoop, planar_angles
@@ -43,10 +46,13 @@ def without_objects(lab: Lab, genotype: np.ndarray, trial: Trials) -> PhysicalRe
 
 def main() -> None:
     """Print a table."""
-    with np.load(sys.argv[1] if len(sys.argv) > 1 else CHAMPION, allow_pickle=False) as stored:
+    still = "--still" in sys.argv[1:]
+    paths = [each for each in sys.argv[1:] if each != "--still"] or [CHAMPION]
+    with np.load(paths[0], allow_pickle=False) as stored:
         genotype = stored["genotypes"][0]
     robot, readings = get_robot("icub"), Readings()
-    lab = Lab(robot)
+    lab = Lab(replace(robot, presence=None) if still else robot)
+    robot = lab.body.robot
     trials = draw_trials(Condition.WITH_INDICATE.instructions, 1, readings, np.random.default_rng(3))
     without_objects(lab, genotype, trials[0])  # compiled and warm
 
@@ -54,6 +60,7 @@ def main() -> None:
     for heading in ("", "error [mm] median", "p99", "max", "deepest contact [mm]", "CPU [s] for 25 s"):
         table.add_column(heading, justify="right" if heading else "left")
     efforts: list[Exertion] = []
+    head_efforts: list[Exertion] = []
     for name in ("without objects", "with objects"):
         records, began = [], time.process_time()
         for t in range(len(trials)):
@@ -70,8 +77,10 @@ def main() -> None:
         cells = (f"{middle:.4f}", f"{high:.3f}", f"{errors.max():.3f}", f"{depth:.2f}", f"{spent:.2f}")
         table.add_row(name, *cells)
         efforts += [exertion(record, lab.kinematics, robot.limits) for record in records if robot.limits]
+        head_efforts += [head_exertion(record, lab.body) for record in records]
     Console().print(table)
     _print_effort(robot.joints, efforts)
+    _print_effort(robot.head_joints, head_efforts)
 
 
 def _print_effort(joints: tuple[str, ...], efforts: list[Exertion]) -> None:

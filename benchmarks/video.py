@@ -89,7 +89,7 @@ def main() -> None:
         stage.shine(*take.planar[k])
 
     def turn(stage: Stage) -> Bearing:
-        return stage.bearing(take.angles, take.planar[:, 0], take.pointing, take.moment_s)
+        return stage.bearing(take)
 
     for name, quality in QUALITIES.items():
         calls = N_FRAMES if quality.oversampling == 1 else N_FRAMES // 10

@@ -1,6 +1,6 @@
-"""A robot as a film shows it: the model of `models.build` with a neck, eyes and fingers that turn.
+"""A robot as a film shows it: the model of `models.build` with a head that turns, fingers, and an arm at rest.
 
-Only looked at: what acts, what is certified and what meets objects is built without any of this.
+Only looked at: what acts is built in `models.physics`, and what is certified in `models.build`.
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 
-from models.appearance import Ornament, eyeball
+from models.appearance import Ornament
 from models.build import ROBOT_PREFIX, add_ornament, build_spec
-from models.presence import Eye, Finger, Presence
+from models.head import ORIGIN, add_eyes, loosened
+from models.presence import Finger, Presence
 from models.robots import Robot
 from models.spec import read_spec
 
-ORIGIN = (0.0, 0.0, 0.0)
 # Of a hand, in its frame: where the palm is thick, as ellipsoids (centre, half axes) [m].
 PALM = (
     ((-0.003, 0.0085, -0.010), (0.040, 0.026, 0.0155)),
@@ -42,8 +42,7 @@ def film_spec(robot: Robot, finer: float = 1.0) -> mujoco.MjSpec:
     if presence is None:
         return build_spec(robot, finer)
     spec = build_spec(_undressed(robot, presence), finer)
-    for eye in presence.eyes:
-        _add_eye(spec, eye)
+    add_eyes(spec, presence)
     frames = read_spec(robot)
     for mirror, (link, frame) in zip((1.0, -1.0), presence.hands.items(), strict=True):
         hand = spec.body(ROBOT_PREFIX + link).add_body(
@@ -63,11 +62,6 @@ def finger_joint(link: str, finger: Finger, phalanx: int) -> str:
     return f"{hand_name(link)}_{finger.name}_{phalanx}"
 
 
-def eye_joints(eye: Eye) -> tuple[str, str]:
-    """The joints of an eye: to the left, and down."""
-    return f"{eye.name}_pan", f"{eye.name}_tilt"
-
-
 def _undressed(robot: Robot, presence: Presence) -> Robot:
     """The robot without what is added here, its left arm at rest, its neck loose."""
     frames = {*presence.hands, *presence.hands.values()}
@@ -78,24 +72,8 @@ def _undressed(robot: Robot, presence: Presence) -> Robot:
         swaps=tuple(each for each in look.swaps if each.link not in frames),
         ornaments=tuple(each for each in look.ornaments if each.link not in frames),
     )
-    return replace(
-        robot,
-        appearance=look,
-        presence=None,
-        loose=presence.neck,
-        fixed={**robot.fixed, **presence.resting},
-    )
-
-
-def _add_eye(spec: mujoco.MjSpec, eye: Eye) -> None:
-    """Add an eyeball that turns to the left, then down."""
-    ball = spec.body(ROBOT_PREFIX + eye.link).add_body(name=ROBOT_PREFIX + eye.name, pos=list(eye.centre))
-    up = np.cross(eye.ahead, eye.left)
-    for name, axis in zip(eye_joints(eye), (up, eye.left), strict=True):
-        ball.add_joint(name=ROBOT_PREFIX + name, axis=list(axis), type=mujoco.mjtJoint.mjJNT_HINGE)
-    _give_mass(ball)
-    for part in eyeball(eye.name, ORIGIN, eye.ahead):
-        add_ornament(spec, part)
+    fixed = {**robot.fixed, **presence.resting}
+    return loosened(replace(robot, appearance=look, fixed=fixed), presence)
 
 
 def _add_hand(spec: mujoco.MjSpec, hand: mujoco.MjsBody, fingers: tuple[Finger, ...], mirror: float) -> None:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import mujoco
 import numpy as np
 
 from models.build import ROBOT_PREFIX, build_spec
+from models.head import add_eyes, cut_out_eyes, loosened
 from models.inertias import unsound_inertias
 from models.limits import MotorLimits
 from models.robots import Robot
@@ -48,7 +51,7 @@ def limits_of_acting(robot: Robot) -> MotorLimits:
 
 
 def build_physics_model(robot: Robot) -> mujoco.MjModel:
-    """Compile the robot with one position actuator for each acting joint, in the order of its `joints`.
+    """Compile the robot with one position actuator for each joint that reaches, then for each of its head.
 
     An actuator's torque is kp (ctrl - q) - kv q', cut off at the motor's limit.
 
@@ -57,7 +60,7 @@ def build_physics_model(robot: Robot) -> mujoco.MjModel:
         RobotNotInstalledError: If the robot's package is missing.
     """
     limits = limits_of_acting(robot)
-    spec = build_spec(robot)
+    spec = turning_spec(robot)
     for shape in robot.shapes:
         add_shape(spec, shape)
     for name in TABLE_TOPS:
@@ -66,10 +69,23 @@ def build_physics_model(robot: Robot) -> mujoco.MjModel:
         spec.geom(name).friction = [TABLE_FRICTION, 0.005, 0.0001]
         spec.geom(name).contype = OBJECT_BIT
         spec.geom(name).conaffinity = OBJECT_BIT | ROBOT_BIT
-    add_motors(spec, robot, limits)
+    motors = dict(zip(robot.joints, limits.torque, strict=True))
+    if robot.presence is not None:
+        motors |= zip(robot.head_joints, robot.presence.limits.torque, strict=True)
+    add_motors(spec, robot, motors)
     middle = spec.geom(OBJECTS[0]).size[1]  # of an object that stands on the table
     spec.worldbody.add_camera(name=EYE, pos=[0.0, 0.0, middle])
     return spec.compile()
+
+
+def turning_spec(robot: Robot) -> mujoco.MjSpec:
+    """A robot at its table whose neck and eyes can turn, if anything is known of them."""
+    if robot.presence is None:
+        return build_spec(robot)
+    spec = build_spec(loosened(robot, robot.presence))
+    cut_out_eyes(spec, robot.presence)
+    add_eyes(spec, robot.presence)
+    return spec
 
 
 def refuse_unsound(robot: Robot) -> None:
@@ -105,10 +121,10 @@ def add_shape(spec: mujoco.MjSpec, shape: ContactShape) -> None:
     )
 
 
-def add_motors(spec: mujoco.MjSpec, robot: Robot, limits: MotorLimits) -> None:
-    """Add the position actuators."""
-    inertias = moved_inertias(spec.compile(), robot)
-    for name, inertia, torque in zip(robot.joints, inertias, limits.torque, strict=True):
+def add_motors(spec: mujoco.MjSpec, robot: Robot, motors: Mapping[str, float]) -> None:
+    """Add position actuators: joint -> largest torque [N m]."""
+    inertias = moved_inertias(spec.compile(), robot, tuple(motors))
+    for (name, torque), inertia in zip(motors.items(), inertias, strict=True):
         stiffness, damping = inertia * NATURAL_FREQUENCY**2, 2.0 * inertia * NATURAL_FREQUENCY
         actuator = spec.add_actuator(name=name, target=ROBOT_PREFIX + name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         actuator.gainprm[0] = stiffness
@@ -118,11 +134,12 @@ def add_motors(spec: mujoco.MjSpec, robot: Robot, limits: MotorLimits) -> None:
         actuator.forcerange = [-torque, torque]
 
 
-def moved_inertias(model: mujoco.MjModel, robot: Robot) -> np.ndarray:
-    """What each acting joint moves when the robot is at rest, [J] in [kg m^2]: the mass matrix's diagonal."""
+def moved_inertias(model: mujoco.MjModel, robot: Robot, names: tuple[str, ...]) -> np.ndarray:
+    """What some joints move when the robot is at rest, one by one in [kg m^2]: the mass matrix's diagonal."""
     data = mujoco.MjData(model)
-    joints = [model.joint(ROBOT_PREFIX + name) for name in robot.joints]
-    data.qpos[[joint.qposadr[0] for joint in joints]] = robot.posture.rest
+    joints = [model.joint(ROBOT_PREFIX + name) for name in names]
+    rest = {**robot.fixed, **dict(zip(robot.joints, robot.posture.rest, strict=True))}
+    data.qpos[[joint.qposadr[0] for joint in joints]] = [rest.get(name, 0.0) for name in names]
     mujoco.mj_forward(model, data)
     dofs = [joint.dofadr[0] for joint in joints]
     return np.array([acceleration_cost(model, data, dof) for dof in dofs])

@@ -1,7 +1,7 @@
-"""The parts of a robot that only a film moves: neck, eyes, fingers, and the arm that rests.
+"""What a robot moves besides the arm that reaches: neck, eyes, fingers, and the arm that rests.
 
-They touch nothing, carry nothing and are no part of kinematics or physics, where they stand still: what is
-certified there stays so.
+None of it touches anything or is part of the kinematics, where it stands still: what is certified there stays
+so. Neck and eyes have motors of their own in physics; fingers and the resting arm are moved by films only.
 """
 
 from __future__ import annotations
@@ -10,6 +10,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import pi
 from types import MappingProxyType
+
+from models.appearance import EYE_RADIUS
+from models.limits import MotorLimits
 
 Triple = tuple[float, float, float]
 
@@ -33,6 +36,17 @@ class Eye:
     ahead: Triple
     left: Triple
     still: Triple
+
+    @property
+    def joints(self) -> tuple[str, str]:
+        """By which it turns: to the left, and down."""
+        return f"{self.name}_pan", f"{self.name}_tilt"
+
+    @property
+    def axes(self) -> tuple[Triple, Triple]:
+        """Of its joints, [3] each in the head's frame: up, and to the left."""
+        (a, b, c), (x, y, z) = self.ahead, self.left
+        return (b * z - c * y, c * x - a * z, a * y - b * x), self.left
 
 
 @dataclass(frozen=True)
@@ -61,7 +75,7 @@ class Finger:
 
 @dataclass(frozen=True)
 class Presence:
-    """What a film moves besides what acts.
+    """What moves besides what reaches.
 
     Attributes:
         neck: Three joints, from the chest to the head: pitch, roll, yaw.
@@ -69,9 +83,12 @@ class Presence:
         ahead: [3], unit vector the face looks along, in the head's frame.
         left: [3], unit vector to the robot's left there.
         neck_speed: [rad/s], the largest of a neck joint.
+        neck_torque: [N m], the largest of a neck joint's motor.
         eyes: Both.
         eye_range: [rad], how far an eye turns to either side, up and down.
         eye_speed: [rad/s].
+        eye_torque: [N m], the largest of an eye's motors.
+        eye_mass: [kg], of an eyeball; the URDF has it in the head.
         hands: Link of a hand -> its frame; z leaves the palm of the right hand and the back of the left.
         fingers: Of either hand; mirrored for the left.
         resting: [rad], angles of joints that stand still otherwise than in physics: the left arm's.
@@ -82,9 +99,12 @@ class Presence:
     ahead: Triple
     left: Triple
     neck_speed: float
+    neck_torque: float
     eyes: tuple[Eye, ...]
     eye_range: float
     eye_speed: float
+    eye_torque: float
+    eye_mass: float
     hands: Mapping[str, str]
     fingers: tuple[Finger, ...]
     resting: Mapping[str, float] = field(default_factory=dict)
@@ -93,6 +113,25 @@ class Presence:
         """Freeze the mappings."""
         object.__setattr__(self, "hands", MappingProxyType(dict(self.hands)))
         object.__setattr__(self, "resting", MappingProxyType(dict(self.resting)))
+
+    @property
+    def head_joints(self) -> tuple[str, ...]:
+        """The H joints that turn face and eyes: the neck's first, then two for every eye."""
+        return (*self.neck, *(name for eye in self.eyes for name in eye.joints))
+
+    @property
+    def eye_moment(self) -> float:
+        """Moment of inertia of an eyeball about any axis through its centre [kg m^2]."""
+        return 0.4 * self.eye_mass * EYE_RADIUS**2
+
+    @property
+    def limits(self) -> MotorLimits:
+        """Of the motors of `head_joints`."""
+        necks, eyes = len(self.neck), 2 * len(self.eyes)
+        return MotorLimits(
+            velocity=(self.neck_speed,) * necks + (self.eye_speed,) * eyes,
+            torque=(self.neck_torque,) * necks + (self.eye_torque,) * eyes,
+        )
 
 
 ALONG, BEND = (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)
@@ -132,7 +171,10 @@ RESTING = {
 NECK = ("neck_pitch", "neck_roll", "neck_yaw")
 HANDS = {"r_hand": "r_hand_dh_frame", "l_hand": "l_hand_dh_frame"}
 # Speeds: a neck that turns by 60 degrees in a second follows S1, which turns by 29; eyes are quicker.
+# The motors of the neck could do 100 (Gazebo files of icub-models); their torque is `effort` in the URDF of
+# example-robot-data. No URDF has eyes that turn: the rest is chosen, with a camera in every eyeball.
 NECK_SPEED, EYE_SPEED, EYE_RANGE = pi / 3, 4 * pi / 3, pi / 6
+NECK_TORQUE, EYE_TORQUE, EYE_MASS = 20.0, 0.1, 0.05
 
 
 def _presence(ahead: Triple, left: Triple, still: Triple, centres: tuple[Triple, Triple]) -> Presence:
@@ -147,9 +189,12 @@ def _presence(ahead: Triple, left: Triple, still: Triple, centres: tuple[Triple,
         ahead=ahead,
         left=left,
         neck_speed=NECK_SPEED,
+        neck_torque=NECK_TORQUE,
         eyes=eyes,
         eye_range=EYE_RANGE,
         eye_speed=EYE_SPEED,
+        eye_torque=EYE_TORQUE,
+        eye_mass=EYE_MASS,
         hands=HANDS,
         fingers=FINGERS,
         resting=RESTING,

@@ -112,7 +112,7 @@ class Robot:
         left_out: Links that are not built in MuJoCo, with all that hangs on them.
         fixed: [rad], the angle at which a joint that does not act is held; 0 if not named.
         appearance: Colours and ornaments.
-        presence: What only a film moves: neck, eyes, fingers and an arm that rests.
+        presence: What moves besides: neck, eyes, fingers and an arm that rests. Without, the head is still.
         loose: Further joints that are not held at their angle in `fixed`, but belong to nobody.
         limits: What the motors can do; None if nothing is known of it, then there is no physics.
         shapes: What meets the objects.
@@ -146,6 +146,11 @@ class Robot:
                     f"but {len(getattr(self.posture, name))} numbers in posture.{name}; give one per joint"
                 )
         object.__setattr__(self, "fixed", MappingProxyType(dict(self.fixed)))
+
+    @property
+    def head_joints(self) -> tuple[str, ...]:
+        """The H joints that turn its head and eyes; none if nothing is known of them."""
+        return () if self.presence is None else self.presence.head_joints
 
 
 ICUB = Robot(

@@ -4,7 +4,8 @@ A position actuator alone lags behind. Its set point is therefore shifted by wha
 
     ctrl = q + (kv q' + tau) / kp,   tau = inverse dynamics of (q, q', q'')
 
-by recursive Newton-Euler (Pinocchio), so that the spring has to make up for contacts only.
+by recursive Newton-Euler (Pinocchio), so that the spring has to make up for contacts only. q holds neck and eyes
+as well as trunk and arm: what a turning head does to the trunk is part of tau.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from models.build import HAND_SITE, ROBOT_PREFIX
 from models.physics import OBJECTS, build_physics_model
 from models.robots import Robot
 from mujoco_port.acting.trajectory import Motion
-from mujoco_port.reach.hand import hand_model
+from mujoco_port.reach.hand import turning_model
 
 # MuJoCo's warnings of numbers that are none, or too large.
 UNSTABLE: Final = tuple(
@@ -55,7 +56,9 @@ def _no_log() -> Iterator[None]:
 
 
 class Body:
-    """A robot that acts, its table and three free objects; J joints.
+    """A robot that acts, its table and three free objects.
+
+    J joints reach, H more turn neck and eyes, M = J + H in all, in this order.
 
     Args:
         robot: Its record.
@@ -65,6 +68,7 @@ class Body:
         data: Its state; written by `start` and `follow` only.
         steps_per_turn: Physics steps in a control step.
         hand_site: Which site of the model is the point that plays S2's end.
+        head_range: [H, 2] in [rad], limits of neck and eyes.
 
     Raises:
         NoPhysicsError: If the robot's record says too little.
@@ -75,9 +79,12 @@ class Body:
         self.model = build_physics_model(robot) if model is None else model
         self.data = mujoco.MjData(self.model)
         self.steps_per_turn = round(DT / self.model.opt.timestep)
-        joints = [self.model.joint(ROBOT_PREFIX + name) for name in robot.joints]
-        self._angles = [joint.qposadr[0] for joint in joints]
+        joints = [self.model.joint(ROBOT_PREFIX + name) for name in (*robot.joints, *robot.head_joints)]
+        self._n, self._turning = len(robot.joints), [joint.qposadr[0] for joint in joints]
+        self._angles, self._head = self._turning[: self._n], self._turning[self._n :]
         self._speeds = [joint.dofadr[0] for joint in joints]
+        self._held = [robot.fixed.get(name, 0.0) for name in robot.head_joints]
+        self.head_range = np.array([joint.range for joint in joints[self._n :]]).reshape(-1, 2)
         self._objects = [self.model.joint(name).qposadr[0] for name in OBJECTS]
         self._heights = [self.model.body(name).pos[2] for name in OBJECTS]
         self._places = np.add.outer(self._objects, np.arange(7))
@@ -85,23 +92,28 @@ class Body:
         self._stiffness = self.model.actuator_gainprm[:, 0].copy()
         self._damping = -self.model.actuator_biasprm[:, 2]
         self._passive = self.model.dof_damping[self._speeds].copy()
-        self._dynamics, _ = hand_model(robot)
+        self._dynamics, self._order = turning_model(robot)
         self._dynamics_data = self._dynamics.createData()
 
     @property
     def angles(self) -> NDArray[np.float64]:
-        """Of the joints, [J] in [rad]."""
+        """Of the joints that reach, [J] in [rad]."""
         return self.data.qpos[self._angles]
 
     @property
     def velocities(self) -> NDArray[np.float64]:
-        """Of the joints, [J] in [rad/s]."""
+        """Of all joints, [M] in [rad/s]."""
         return self.data.qvel[self._speeds]
 
     @property
     def torques(self) -> NDArray[np.float64]:
-        """Of the motors, [J] in [N m]."""
+        """Of all motors, [M] in [N m]."""
         return self.data.actuator_force
+
+    @property
+    def head(self) -> NDArray[np.float64]:
+        """Of neck and eyes, [H] in [rad]."""
+        return self.data.qpos[self._head]
 
     @property
     def hand(self) -> NDArray[np.float64]:
@@ -118,10 +130,22 @@ class Body:
         """Of the objects, [3, 7]: centre in [m] and quaternion; blue, green, red."""
         return self.data.qpos[self._places]
 
-    def start(self, angles: NDArray[np.float64], objects: NDArray[np.float64]) -> None:
-        """Stand still at joint angles [J] in [rad], the objects' centres on the table at [3, 2] in [m]."""
+    def start(
+        self,
+        angles: NDArray[np.float64],
+        objects: NDArray[np.float64],
+        head: NDArray[np.float64] | None = None,
+    ) -> None:
+        """Stand still among objects.
+
+        Args:
+            angles: [J] in [rad].
+            objects: [3, 2] in [m], their centres on the table.
+            head: [H] in [rad]; without, the head is held as it is where it cannot turn.
+        """
         mujoco.mj_resetData(self.model, self.data)
-        self.data.qpos[self._angles] = angles
+        angles = np.concatenate([angles, self._held if head is None else head])
+        self.data.qpos[self._turning] = angles
         for address, height, place in zip(self._objects, self._heights, objects, strict=True):
             self.data.qpos[address : address + 7] = (*place, height, 1.0, 0.0, 0.0, 0.0)
         self.data.ctrl[:] = self.set_points(
@@ -131,18 +155,17 @@ class Body:
             mujoco.mj_forward(self.model, self.data)
 
     def set_points(self, motion: Motion) -> NDArray[np.float64]:
-        """The actuators' controls [N, J] in [rad] for a motion of N moments."""
+        """The actuators' controls [N, M] in [rad] for a motion of N moments of M joints."""
+        turned = np.empty((3, *motion.angles.shape))
+        turned[..., self._order] = motion.angles, motion.velocities, motion.accelerations
         torques = np.array(
-            [
-                pin.rnea(self._dynamics, self._dynamics_data, q, v, a)
-                for q, v, a in zip(motion.angles, motion.velocities, motion.accelerations, strict=True)
-            ]
-        )
+            [pin.rnea(self._dynamics, self._dynamics_data, *each) for each in turned.swapaxes(0, 1)]
+        )[:, self._order]
         torques += (self._passive + self._damping) * motion.velocities
         return motion.angles + torques / self._stiffness
 
     def advance(self, set_point: NDArray[np.float64]) -> None:
-        """Take one physics step towards a set point [J] in [rad]."""
+        """Take one physics step towards a set point [M] in [rad]."""
         self.data.ctrl[:] = set_point
         with _no_log():
             mujoco.mj_step(self.model, self.data)

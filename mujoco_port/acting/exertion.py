@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from arm2d.records import brief
 from models.limits import MotorLimits
+from mujoco_port.acting.control import Body
 from mujoco_port.acting.rollout import PhysicalRecord
 from mujoco_port.reach.kinematics import ArmKinematics
 
@@ -51,4 +52,16 @@ def exertion(record: PhysicalRecord, kinematics: ArmKinematics, limits: MotorLim
         (np.abs(record.angles - middle) / half).max(axis=0),
         (np.abs(record.velocities) / limits.velocity).max(axis=0),
         (np.abs(record.torques) / limits.torque).max(axis=0),
+    )
+
+
+def head_exertion(record: PhysicalRecord, body: Body) -> Exertion:
+    """What a trial asked of its robot's neck and eyes, each [H]; of a head that is still, nothing."""
+    presence = body.robot.presence
+    limits = MotorLimits((), ()) if presence is None else presence.limits
+    middle, half = body.head_range.mean(axis=1), np.ptp(body.head_range, axis=1) / 2
+    return Exertion(
+        (np.abs(record.head - middle) / half).max(axis=0),
+        (np.abs(record.head_velocities) / limits.velocity).max(axis=0),
+        (np.abs(record.head_torques) / limits.torque).max(axis=0),
     )

@@ -4,7 +4,7 @@ Whoever gives the orders (`Pilot`) says where S2 is to be, ten times in a second
 the robot makes of it hand targets, joint angles and torques. Everything that a verdict needs is kept for
 every physics step.
 
-Axes: N physics steps of 2 ms, K control steps, J joints, 3 objects (blue, green, red).
+Axes: N physics steps of 2 ms, K control steps, J joints that reach, H of the head, 3 objects (blue, green, red).
 """
 
 from __future__ import annotations
@@ -17,10 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Instruction
-from arm2d.constants import MAX_STEPS
+from arm2d.constants import DT, MAX_STEPS
 from arm2d.records import brief
 from mujoco_port.acting.contacts import RIGHT_SIDE, ContactSensors
 from mujoco_port.acting.control import Body
+from mujoco_port.acting.gaze import Gaze
 from mujoco_port.acting.stepping_over import stepping_over
 from mujoco_port.acting.trajectory import motion_between
 from mujoco_port.reach.kinematics import ArmKinematics
@@ -31,6 +32,9 @@ Angles = tuple[float, float]  # alpha and beta in [deg]
 # step of 10 s, and in closed loop orders come a step late: the robot has half a second more to be judged.
 MOST_STEPS: Final = MAX_STEPS + 5
 MOST_RISE: Final = 0.4  # of the way up, or down, in a control step
+# Of a joint's largest speed, how much its targets may use: from rest to rest, a cubic is half as fast again
+# in the middle, and never faster.
+UNHURRIED: Final = 2 / 3
 
 
 class Sight(NamedTuple):
@@ -84,6 +88,9 @@ class PhysicalRecord:
         torques: [N, J] in [N m], of the motors.
         hand: [N, 3] in [m], measured.
         joints: [N, J] in [rad], where the interpolated path has them.
+        head: [N, H] in [rad], measured: neck and eyes.
+        head_velocities: [N, H] in [rad/s], measured.
+        head_torques: [N, H] in [N m], of its motors.
         places: [N, 3, 7], of the objects: centre in [m] and quaternion.
         contact: [N, 3], bits of `mujoco_port.acting.contacts`.
         depth: [N] in [m], how deep the deepest contact of the robot is pressed in.
@@ -100,6 +107,9 @@ class PhysicalRecord:
     torques: NDArray[np.float64]
     hand: NDArray[np.float64]
     joints: NDArray[np.float64]
+    head: NDArray[np.float64]
+    head_velocities: NDArray[np.float64]
+    head_torques: NDArray[np.float64]
     places: NDArray[np.float64]
     contact: NDArray[np.uint8]
     depth: NDArray[np.float64]
@@ -180,12 +190,14 @@ class Carrying:
     ) -> None:
         self._body, self._kinematics, self._pilot, self._eyes = body, kinematics, pilot, eyes
         self._plane = plane = body.robot.plane
+        self._gaze = _gaze_of(body)
         self._orders = list(pilot.first())
         joints = [self._solve(self._orders[0], None, 0.0)]
         joints.append(self._solve(self._orders[1], joints[0], 0.0))
         joints.insert(0, joints[0])  # it has been standing still
         self._joints = joints
-        body.start(joints[0], on_table(plane, discs))
+        reach = len(body.robot.joints)
+        body.start(joints[0][:reach], on_table(plane, discs), joints[0][reach:])
         self._log = _Log(body, instruction, plane.scale)
         self._raised, self._done, self._first = 0.0, 0, 0
 
@@ -220,13 +232,24 @@ class Carrying:
         return order is not None
 
     def _solve(self, order: Angles, before: NDArray[np.float64] | None, raised: float) -> NDArray[np.float64]:
-        """Joint angles [J] in [rad] for an order, near those before it."""
+        """Angles [M] in [rad] of arm and head for an order, near those before it."""
         alpha, beta = np.array(order[0]), np.array(order[1])
         target = hand_targets(self._plane, alpha, beta, raised)
         heading = float(hand_headings(self._plane, alpha, beta))
         if before is None:
-            return self._kinematics.settle(target, heading)
-        return self._kinematics.step(before, target, heading)
+            reaching = self._kinematics.settle(target, heading)
+        else:
+            reaching = self._kinematics.step(before[: len(self._body.robot.joints)], target, heading)
+        if self._gaze is None:
+            return reaching
+        looking = self._gaze.follow(reaching, order[0], None if before is None else DT)
+        return np.concatenate([reaching, looking])
+
+
+def _gaze_of(body: Body) -> Gaze | None:
+    """What a body's head follows S1 with, if it can."""
+    presence = body.robot.presence
+    return None if presence is None else Gaze(body.model, body.robot, presence, UNHURRIED)
 
 
 def above_objects(body: Body, objects: NDArray[np.float64], record: PhysicalRecord, order: Angles) -> float:
@@ -252,7 +275,7 @@ class _Log:
         self._body, self._skin = body, ContactSensors(body)
         self._asked = instruction, scale
         self._filled, self.before = 0, 0  # rows, and those of them that were there before the words
-        n, joints = (MOST_STEPS + 1) * body.steps_per_turn, len(body.angles)
+        n, joints, head = (MOST_STEPS + 1) * body.steps_per_turn, len(body.angles), len(body.head)
         self._kept = {
             "alpha": np.empty(n),
             "still": np.empty(n, bool),
@@ -261,6 +284,9 @@ class _Log:
             "torques": np.empty((n, joints)),
             "hand": np.empty((n, 3)),
             "joints": np.empty((n, joints)),
+            "head": np.empty((n, head)),
+            "head_velocities": np.empty((n, head)),
+            "head_torques": np.empty((n, head)),
             "places": np.empty((n, 3, 7)),
             "contact": np.empty((n, 3), np.uint8),
             "depth": np.empty(n),
@@ -271,19 +297,21 @@ class _Log:
 
         Args:
             directions: [4, 2] in [deg], alpha and beta.
-            joints: [4, J] in [rad].
+            joints: [4, M] in [rad], of arm and head.
         """
         body, kept, first, count = self._body, self._kept, self._filled, self._body.steps_per_turn
+        reach = len(body.robot.joints)
         rows = slice(first, first + count)
         motion = motion_between(joints, count)
         kept["alpha"][rows] = motion_between(directions, count).angles[:, 0]
         kept["still"][rows] = directions[1, 0] == directions[2, 0]
-        kept["joints"][rows] = motion.angles
+        kept["joints"][rows] = motion.angles[:, :reach]
         for row, set_point in enumerate(body.set_points(motion), start=first):
             body.advance(set_point)
             kept["angles"][row] = body.angles
-            kept["velocities"][row] = body.velocities
-            kept["torques"][row] = body.torques
+            kept["velocities"][row], kept["head_velocities"][row] = np.split(body.velocities, [reach])
+            kept["torques"][row], kept["head_torques"][row] = np.split(body.torques, [reach])
+            kept["head"][row] = body.head
             kept["hand"][row] = body.hand
             kept["places"][row] = body.places
             kept["contact"][row], kept["depth"][row] = self._skin.read()

@@ -126,6 +126,7 @@ class Take:
         planar: [F, 2], alpha and beta in [deg] of the arm whose end the hand is.
         mind: What the agent senses and thinks.
         verdicts: Who judges and whether the instruction was carried out, one after the other.
+        head: [F, H] in [rad], how neck and eyes moved; None where nothing has moved them.
     """
 
     record: TrialRecord
@@ -136,6 +137,7 @@ class Take:
     planar: NDArray[np.float64]
     mind: Mind
     verdicts: tuple[tuple[str, bool], ...]
+    head: NDArray[np.float64] | None = None
 
     __repr__ = brief
 
@@ -204,6 +206,7 @@ def physical_take(
         planar=np.stack([record.alpha[rows], beta], axis=-1),
         mind=_acting_mind(planar, record, genotype),
         verdicts=(("planar world", planar.success), ("robot", verdict.success)),
+        head=record.head[rows],
     )
 
 

@@ -67,7 +67,7 @@ def frames(take: Take, robot: Robot, quality: Quality = NORMAL) -> Iterator[NDAr
 
 def robot_pictures(take: Take, stage: Stage, inset_px: int = INSET_PX) -> Iterator[NDArray[np.uint8]]:
     """The robot's view at each moment, contacts also from near; what looks like before is not drawn anew."""
-    bearing = stage.bearing(take.angles, take.planar[:, 0], take.pointing, take.moment_s)
+    bearing = stage.bearing(take)
     episodes = close_ups(take)
     picture, drawn = np.empty(0, np.uint8), np.empty(0)
     for moment, (angles, objects) in enumerate(zip(take.angles, take.objects, strict=True)):
@@ -108,7 +108,7 @@ def frame_at(
 
 def moment_of(take: Take, stage: Stage, moment: int, inset_px: int = INSET_PX) -> NDArray[np.uint8]:
     """The robot's view at one moment of a take, as a film would show it."""
-    bearing = stage.bearing(take.angles, take.planar[:, 0], take.pointing, take.moment_s)
+    bearing = stage.bearing(take)
     stage.pose(take.angles[moment], take.objects[moment], bearing, moment)
     stage.highlight(take.touched[moment])
     stage.shine(*take.planar[moment])

@@ -12,7 +12,7 @@ from models.build import ROBOT_PREFIX
 from models.filmed import film_spec, finger_joint
 from models.physics import OBJECTS
 from models.robots import Robot
-from mujoco_port.film.gaze import CURL_S, Gaze
+from mujoco_port.film.gaze import CURL_S
 from mujoco_port.live.session import FRAMES_PER_SECOND, Moment
 
 MOMENT_S: Final = 1.0 / FRAMES_PER_SECOND
@@ -36,8 +36,8 @@ class Posture:
         self._acting = [self.model.joint(ROBOT_PREFIX + name).qposadr[0] for name in robot.joints]
         objects = [self.model.joint(name).qposadr[0] for name in OBJECTS]
         self._objects = np.add.outer(objects, np.arange(7))
+        self._head = [self._address(name) for name in robot.head_joints]
         presence = robot.presence
-        self._gaze = None if presence is None else Gaze(self.model, robot, presence)
         self._fingers, self._bent, self._curl = [], np.empty(0), 0.0
         if presence is not None:
             right, left = presence.hands
@@ -53,10 +53,7 @@ class Posture:
         data, elapsed = self._data, None if moment.jumped else MOMENT_S
         data.qpos[self._acting] = moment.angles
         data.qpos[self._objects] = moment.places
-        if self._gaze is not None:
-            data.qpos[self._gaze.addresses] = self._gaze.follow(
-                moment.angles, float(moment.planar[0]), elapsed
-            )
+        data.qpos[self._head] = moment.head
         most = 1.0 if elapsed is None else elapsed / CURL_S
         self._curl += float(np.clip(pointing - self._curl, -most, most))
         data.qpos[self._fingers] = self._bent * self._curl**2 * (3.0 - 2.0 * self._curl)

@@ -39,6 +39,7 @@ class Moment:
     Attributes:
         seconds: [s] since the start.
         angles: [J] in [rad].
+        head: [H] in [rad], of neck and eyes.
         places: [3, 7], of the objects: centre in [m] and quaternion.
         touched: [3], which objects are touched.
         planar: [2] in [deg], alpha and beta.
@@ -47,6 +48,7 @@ class Moment:
 
     seconds: float
     angles: NDArray[np.float64]
+    head: NDArray[np.float64]
     places: NDArray[np.float64]
     touched: NDArray[np.bool_]
     planar: NDArray[np.float64]
@@ -132,6 +134,7 @@ class Session:
         return Moment(
             DT * max(0.0, self._trial.steps - 1 + self._row / self._rows),
             stretch.angles[row],
+            stretch.head[row],
             stretch.places[row],
             stretch.touched[row],
             stretch.planar[row],
@@ -187,6 +190,7 @@ class Session:
         body, rows = self._lab.body, self._lab.body.steps_per_turn
         self._stretch = Stretch(
             np.tile(body.angles, (rows, 1)),
+            np.tile(body.head, (rows, 1)),
             np.tile(body.places, (rows, 1, 1)),
             np.zeros((rows, 3), bool),
             np.tile([self._start.alpha, BETA_MAX], (rows, 1)),

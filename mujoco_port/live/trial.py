@@ -45,12 +45,14 @@ class Stretch:
 
     Attributes:
         angles: [N, J] in [rad].
+        head: [N, H] in [rad], of neck and eyes.
         places: [N, 3, 7], of the objects: centre in [m] and quaternion.
         touched: [N, 3], which objects are touched.
         planar: [N, 2] in [deg], alpha and beta.
     """
 
     angles: NDArray[np.float64]
+    head: NDArray[np.float64]
     places: NDArray[np.float64]
     touched: NDArray[np.bool_]
     planar: NDArray[np.float64]
@@ -129,6 +131,7 @@ class LiveTrial:
         beta = np.interp(np.linspace(0.0, 1.0, len(places)), [0.0, 1.0], record.orders[-2:, 1])
         return Stretch(
             record.angles[rows],
+            record.head[rows],
             places,
             record.contact[rows] != 0,
             np.stack([record.alpha[rows], beta], axis=-1),

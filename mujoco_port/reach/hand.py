@@ -1,18 +1,58 @@
-"""Pinocchio's model of a robot's acting joints, standing in the world, its hand a frame of its own."""
+"""Pinocchio's models of a robot that stands in the world: what reaches, its hand a frame, and all that turns."""
 
 from __future__ import annotations
 
 import numpy as np
 import pinocchio as pin
 
+from models.presence import Eye, Presence
 from models.robots import Robot
 from models.urdf import find_urdf
 
 
 def hand_model(robot: Robot) -> tuple[pin.Model, int]:
-    """Give Pinocchio's model of the acting joints, standing in the world, and its hand frame's index."""
+    """Give the model of the joints that reach, all others held, and the index of its hand's frame."""
+    model = _standing(robot, robot.joints)
+    link = model.frames[model.getFrameId(robot.hand_frame)]
+    offset = pin.SE3(np.eye(3), np.array(robot.hand_offset))
+    hand = pin.Frame("hand", link.parentJoint, link.placement * offset, pin.FrameType.OP_FRAME)
+    return model, model.addFrame(hand)
+
+
+def turning_model(robot: Robot) -> tuple[pin.Model, list[int]]:
+    """Give the model of all that turns in physics: what reaches, neck and eyes.
+
+    Returns:
+        The model, and which of its angles are those of `robot.joints` and of its `head_joints`, in this
+        order.
+    """
+    presence = robot.presence
+    model = _standing(robot, (*robot.joints, *(() if presence is None else presence.neck)))
+    if presence is not None:
+        for eye in presence.eyes:
+            _add_eye(model, presence, eye)
+    names = (*robot.joints, *robot.head_joints)
+    return model, [model.joints[model.getJointId(name)].idx_q for name in names]
+
+
+def _add_eye(model: pin.Model, presence: Presence, eye: Eye) -> None:
+    """Cut an eyeball out of the head and let it turn there."""
+    head = model.frames[model.getFrameId(eye.link)]
+    place = head.placement * pin.SE3(np.eye(3), np.array(eye.centre))
+    ball = pin.Inertia(presence.eye_mass, np.zeros(3), presence.eye_moment * np.eye(3))
+    left = model.inertias[head.parentJoint].toDynamicParameters() - place.act(ball).toDynamicParameters()
+    model.inertias[head.parentJoint] = pin.Inertia.FromDynamicParameters(left)
+    joint = head.parentJoint
+    for name, axis in zip(eye.joints, eye.axes, strict=True):
+        joint = model.addJoint(joint, pin.JointModelRevoluteUnaligned(np.array(axis)), place, name)
+        place = pin.SE3.Identity()
+    model.appendBodyToJoint(joint, ball, place)
+
+
+def _standing(robot: Robot, joints: tuple[str, ...]) -> pin.Model:
+    """A model of some joints, the others held at their angle in the robot's record."""
     whole = pin.buildModelFromUrdf(str(find_urdf(robot)))
-    locked = [index for index, name in enumerate(whole.names) if index > 0 and name not in robot.joints]
+    locked = [index for index, name in enumerate(whole.names) if index > 0 and name not in joints]
     angles = pin.neutral(whole)
     for name, angle in robot.fixed.items():
         angles[whole.joints[whole.getJointId(name)].idx_q] = angle
@@ -21,7 +61,4 @@ def hand_model(robot: Robot) -> tuple[pin.Model, int]:
     for joint in range(1, model.njoints):
         if model.parents[joint] == 0:
             model.jointPlacements[joint] = base * model.jointPlacements[joint]
-    link = model.frames[model.getFrameId(robot.hand_frame)]
-    offset = pin.SE3(np.eye(3), np.array(robot.hand_offset))
-    hand = pin.Frame("hand", link.parentJoint, link.placement * offset, pin.FrameType.OP_FRAME)
-    return model, model.addFrame(hand)
+    return model

@@ -1,5 +1,7 @@
 """The robot with motors: what they pull with, how objects slide, where the eye is."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -14,6 +16,10 @@ from models.build import ROBOT_PREFIX, build_model  # noqa: E402
 from models.physics import EYE, OBJECTS, build_physics_model  # noqa: E402
 
 ROBOT = get_robot("icub")
+# Where arm and head stand while the robot rests.
+REST = {**ROBOT.fixed, **dict(zip(ROBOT.joints, ROBOT.posture.rest, strict=True))}
+JOINTS = (*ROBOT.joints, *ROBOT.head_joints)
+AT_REST = np.array([REST.get(name, 0.0) for name in JOINTS])
 GRAVITY = 9.81  # [m/s^2]
 
 
@@ -26,7 +32,7 @@ def model():
 def data(model):
     """At rest, with objects where they are built."""
     data = mujoco.MjData(model)
-    data.qpos[[model.joint(ROBOT_PREFIX + name).qposadr[0] for name in ROBOT.joints]] = ROBOT.posture.rest
+    data.qpos[[model.joint(ROBOT_PREFIX + name).qposadr[0] for name in JOINTS]] = AT_REST
     mujoco.mj_forward(model, data)
     return data
 
@@ -34,7 +40,7 @@ def data(model):
 def test_motors_are_critically_damped_springs_on_what_the_joints_move_at_rest(model, data):
     """From M q'' = -kp q - kv q': kp = M w^2 and kv = 2 M w, w being 66 rad/s."""
     inertias = []
-    for name in ROBOT.joints:
+    for name in JOINTS:
         data.qvel[:] = 0.0
         data.qvel[model.joint(ROBOT_PREFIX + name).dofadr[0]] = 1.0
         mujoco.mj_energyVel(model, data)
@@ -48,9 +54,10 @@ def test_motors_are_critically_damped_springs_on_what_the_joints_move_at_rest(mo
 
 @pytest.mark.parametrize("way", [-1.0, 1.0])
 def test_motors_pull_as_hard_one_way_as_the_other(model, data, way):
-    data.ctrl[:] = np.array(ROBOT.posture.rest) + 10.0 * way
+    data.ctrl[:] = AT_REST + 10.0 * way
     mujoco.mj_forward(model, data)
-    np.testing.assert_allclose(data.actuator_force, way * np.array(ROBOT.limits.torque))
+    largest = [*ROBOT.limits.torque, *ROBOT.presence.limits.torque]
+    np.testing.assert_allclose(data.actuator_force, way * np.array(largest))
 
 
 @pytest.mark.parametrize("name", OBJECTS)
@@ -59,7 +66,7 @@ def test_an_object_that_slides_is_stopped_by_the_table(model, data, name):
     joint, speed = model.joint(name), 0.3
     start = data.qpos[joint.qposadr[0] : joint.qposadr[0] + 2].copy()
     data.qvel[joint.dofadr[0] + 1] = speed  # away from the robot
-    data.ctrl[:] = ROBOT.posture.rest
+    data.ctrl[:] = AT_REST
     for _ in range(200):
         mujoco.mj_step(model, data)
     way = np.linalg.norm(data.qpos[joint.qposadr[0] : joint.qposadr[0] + 2] - start)
@@ -90,5 +97,24 @@ def test_shapes_of_the_robot_meet_objects_and_nothing_else(model):
     assert all(meet(one, other) for one in things for other in [*things, *tables])
 
 
-def test_what_touches_weighs_nothing(model):
-    np.testing.assert_array_equal(model.body_mass, build_model(ROBOT).body_mass)
+def test_what_touches_weighs_nothing():
+    still = replace(ROBOT, presence=None)
+    np.testing.assert_array_equal(build_physics_model(still).body_mass, build_model(ROBOT).body_mass)
+
+
+@pytest.mark.parametrize("eyes", [-0.5, 0.0, 0.4])
+def test_eyes_that_are_cut_out_leave_head_and_eyes_what_they_were(model, eyes):
+    """Wherever they look: trunk and arm move the same inertia as with the URDF's head of one piece."""
+    still = build_physics_model(replace(ROBOT, presence=None))
+    matrices = []
+    for each in (still, model):
+        data, names = mujoco.MjData(each), JOINTS if each is model else ROBOT.joints
+        joints = [each.joint(ROBOT_PREFIX + name) for name in names]
+        data.qpos[[joint.qposadr[0] for joint in joints]] = AT_REST[: len(names)]
+        if each is model:
+            data.qpos[[joint.qposadr[0] for joint in joints[-4:]]] = eyes
+        mujoco.mj_forward(each, data)
+        whole, dofs = np.empty((each.nv, each.nv)), [joint.dofadr[0] for joint in joints[:10]]
+        mujoco.mj_fullM(each, data, whole)
+        matrices.append(whole[np.ix_(dofs, dofs)])
+    np.testing.assert_allclose(*matrices, rtol=1e-9, atol=1e-12)

@@ -16,6 +16,7 @@ from mujoco_port.film.quality import QUALITIES, Quality
 from mujoco_port.film.stage.backstage import OBJECTS, Backstage
 from mujoco_port.film.stage.cameras import camera_above, camera_named
 from mujoco_port.film.stage.view import View
+from mujoco_port.film.take import Take
 
 PLACE: Final = 7  # numbers that say where a free object is
 UPRIGHT: Final = (1.0, 0.0, 0.0, 0.0)
@@ -64,15 +65,17 @@ class Stage:
         """Give the renderer's memory back."""
         self._back.close()
 
-    def bearing(
-        self,
-        angles: NDArray[np.float64],
-        alpha: NDArray[np.float64],
-        pointing: NDArray[np.bool_],
-        moment_s: float,
-    ) -> Bearing:
-        """What neck, eyes and fingers do while the arm acts; see `mujoco_port.film.gaze.bearing`."""
-        return bearing(self.model, self.robot, angles, alpha, pointing, moment_s)
+    def bearing(self, take: Take) -> Bearing:
+        """What neck, eyes and fingers do in a take; see `mujoco_port.film.gaze.bearing`."""
+        return bearing(
+            self.model,
+            self.robot,
+            take.angles,
+            take.planar[:, 0],
+            take.pointing,
+            take.moment_s,
+            take.head,
+        )
 
     def pose(
         self,

@@ -9,7 +9,7 @@ import pytest
 
 from models.physics import NoPhysicsError, build_physics_model
 from mujoco_port.acting.control import UnstableError
-from mujoco_port.acting.exertion import Exertion, exertion, tracking_errors
+from mujoco_port.acting.exertion import Exertion, exertion, head_exertion, tracking_errors
 from mujoco_port.acting.eyes import geometric_eyes
 from mujoco_port.acting.open_loop import planar_angles
 from mujoco_port.acting.rollout import carry_out
@@ -60,11 +60,12 @@ def test_velocity_and_acceleration_are_the_derivatives_of_the_motion(knots):
 
 def test_feed_forward_is_what_mujocos_own_inverse_dynamics_asks_for(lab, knots):
     """The set point of a motor pulls a joint that is on its way with exactly the torque the motion needs."""
-    body, middle = lab.body, (lab.kinematics.lower + lab.kinematics.upper) / 2
-    turns = np.tile(knots[:4], (1, 4))[:, : len(middle)]
+    body = lab.body
+    joints = [body.model.joint(f"robot/{name}") for name in (*body.robot.joints, *body.robot.head_joints)]
+    middle = np.array([joint.range.mean() for joint in joints])
+    turns = np.tile(knots[:4], (1, 6))[:, : len(middle)]
     motion = motion_between(middle + turns, N)
     points = body.set_points(motion)
-    joints = [body.model.joint(f"robot/{name}") for name in body.robot.joints]
     angles, speeds = [joint.qposadr[0] for joint in joints], [joint.dofadr[0] for joint in joints]
     data = mujoco.MjData(body.model)
     stiffness, damping = body.model.actuator_gainprm[:, 0], -body.model.actuator_biasprm[:, 2]
@@ -99,10 +100,14 @@ def test_hand_without_objects_in_its_way_is_tracked_and_the_motors_limits_hold(
         assert record.steps == 40
         errors.append(tracking_errors(record, lab.kinematics))
         assert not record.contact.any()
-        used = exertion(record, lab.kinematics, lab.body.robot.limits)
-        assert used.velocity.max() < 1.0
-        assert used.torque.max() <= 1.0
-        assert used.position.max() < 1.001  # the stops are a little soft
+        arm, head = (
+            exertion(record, lab.kinematics, lab.body.robot.limits),
+            head_exertion(record, lab.body),
+        )
+        for used in (arm, head):
+            assert used.velocity.max() < 1.0
+            assert used.torque.max() <= 1.0
+            assert used.position.max() < 1.001  # the stops are a little soft
     errors = np.concatenate(errors)
     assert np.median(errors) <= 0.05e-3
     assert errors.max() <= 1e-3
@@ -143,9 +148,9 @@ def test_exertion_is_told_in_parts_of_the_limits_and_the_larger_of_two_is_kept(k
 def test_torque_never_exceeds_the_motors_limit(lab):
     body = lab.body
     body.start(lab.kinematics.rest, np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]]))
-    largest = np.array(body.robot.limits.torque)
+    largest = np.array([*body.robot.limits.torque, *body.robot.presence.limits.torque])
     for _ in range(5):
-        body.advance(lab.kinematics.rest + 10.0)
+        body.advance(np.concatenate([lab.kinematics.rest, body.head]) + 10.0)
         assert (np.abs(body.torques) <= largest).all()
     assert np.abs(body.torques) == pytest.approx(largest)
     body.refuse_unstable()
@@ -156,7 +161,7 @@ def test_simulation_that_blows_up_is_told_and_a_new_start_is_a_new_trial(lab, tm
     body, away = lab.body, np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]])
     body.start(lab.kinematics.rest, away)
     body.data.qvel[:] = np.nan
-    body.advance(lab.kinematics.rest)
+    body.advance(np.concatenate([lab.kinematics.rest, np.zeros(7)]))
     with pytest.raises(UnstableError, match="the physics of robot 'icub' became unstable"):
         body.refuse_unstable()
     body.start(lab.kinematics.rest, away)

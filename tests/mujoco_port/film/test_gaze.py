@@ -7,8 +7,11 @@ import pytest
 from models.build import ROBOT_PREFIX, build_model
 from models.filmed import film_spec
 from models.robots import get_robot
-from mujoco_port.film.gaze import Head, bearing, looked_at
-from mujoco_port.film.take import kinematic_take
+from mujoco_port.acting.gaze import Gaze, Head, looked_at
+from mujoco_port.film.gaze import bearing
+from mujoco_port.film.physical_port import start_of
+from mujoco_port.film.take import kinematic_take, physical_take
+from mujoco_port.film.stage import Stage
 from mujoco_port.reach.kinematics import ArmKinematics
 from mujoco_port.reach.workspace import hand_headings, hand_targets
 
@@ -104,6 +107,19 @@ def test_what_acts_is_where_it_is_in_the_model_that_is_certified(filmed, searchi
     np.testing.assert_array_equal(*places)
 
 
+def test_a_film_of_an_acting_robot_shows_the_head_as_it_moved(filmed, lab, searching, evolved_agent):
+    robot, model = filmed
+    if robot.limits is None:
+        pytest.skip("this robot does not act")
+    physical, verdict = lab.open_loop(evolved_agent, start_of(searching), searching.readings)
+    take = physical_take(searching, physical, verdict, evolved_agent)
+    with Stage(robot, 64, 64) as stage:
+        moved = stage.bearing(take)
+        joints = [stage.model.joint(ROBOT_PREFIX + name).qposadr[0] for name in robot.head_joints]
+        np.testing.assert_array_equal(moved.angles[:, :7], physical.head[::20])
+        np.testing.assert_array_equal(moved.addresses[:7], joints)
+
+
 def below(model, link):
     """The shapes of a link and all that hangs on it."""
     root = model.body(ROBOT_PREFIX + link).id
@@ -125,14 +141,37 @@ def test_the_resting_arm_is_in_nobodys_way(filmed):
     resting = below(model, "l_upper_arm")
     others = below(model, "r_elbow_1" if robot.name == "icub" else "r_forearm")
     others += [model.geom(name).id for name in ("top", "left_wing", "right_wing")]
+    assert nearest_gap(robot, model, angles, resting, others) > ARMS_APART
+
+
+def test_a_head_that_turns_is_in_nobodys_way(filmed):
+    """Of the acting arm, wherever in the workspace the hand is and S1 points."""
+    robot, model = filmed
+    alpha, beta = (each.ravel() for each in np.meshgrid(np.linspace(-30, 210, 84), [0.0, 45.0, 90.0]))
+    targets = hand_targets(robot.plane, alpha, beta)
+    angles = ArmKinematics(robot).follow(targets, hand_headings(robot.plane, alpha, beta))[::6]
+    gaze = Gaze(model, robot, robot.presence)
+    heads = [gaze.follow(*each, None) for each in zip(angles, alpha[::6], strict=True)]
+    head, arm = below(model, "head"), below(model, "r_upper_arm")
+    assert nearest_gap(robot, model, angles, head, arm, heads) > ARMS_APART
+
+
+def nearest_gap(robot, model, angles, some, others, heads=None):
+    """The least gap [m] between two groups of shapes in some postures [F, J] of the arm, and of the head."""
     data, nearest = mujoco.MjData(model), np.inf
-    for posture in angles:
-        data.qpos[[model.joint(ROBOT_PREFIX + name).qposadr[0] for name in robot.joints]] = posture
+    acting, looking = (
+        [model.joint(ROBOT_PREFIX + name).qposadr[0] for name in names]
+        for names in (robot.joints, robot.head_joints)
+    )
+    for row, posture in enumerate(angles):
+        data.qpos[acting] = posture
+        if heads is not None:
+            data.qpos[looking] = heads[row]
         mujoco.mj_kinematics(model, data)
-        for one in resting:
+        for one in some:
             for other in others:
                 room = model.geom_rbound[one] + model.geom_rbound[other]
                 gap = np.linalg.norm(data.geom_xpos[one] - data.geom_xpos[other]) - room
                 if gap < nearest or other >= others[-1]:
                     nearest = min(nearest, mujoco.mj_geomDistance(model, data, one, other, 1.0, np.zeros(6)))
-    assert nearest > ARMS_APART
+    return nearest

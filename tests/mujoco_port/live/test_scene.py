@@ -85,22 +85,22 @@ def test_marks_lie_where_the_planar_world_has_them():
     assert right.places[:, 2].min() == left.places[:, 2].min() > arc.places[:, 2].max()
 
 
-def test_the_robot_looks_along_s1_and_points_while_it_hears_indicate(posture, lab, draw_start):
-    start = draw_start("right", 0)
-    lab.body.start(lab.kinematics.settle(np.array([0.0, 0.25, 0.09]), 1.5), 0.0018 * start.discs)
+def test_the_head_is_shown_as_the_robot_holds_it_and_the_hand_points_while_indicate_is_heard(
+    posture, lab, draw_start
+):
+    start, body = draw_start("right", 0), lab.body
+    turned = np.array([0.2, 0.1, -0.6, 0.3, -0.2, 0.1, 0.25])
+    body.start(lab.kinematics.settle(np.array([0.0, 0.25, 0.09]), 1.5), 0.0018 * start.discs, turned)
 
-    def seen(alpha, pointing, jumped):
-        planar = np.array([alpha, 90.0])
-        moment = Moment(0.0, lab.body.angles, lab.body.places, np.zeros(3, bool), planar, jumped)
+    def seen(pointing):
+        moment = Moment(0.0, body.angles, body.head, body.places, np.zeros(3, bool), np.zeros(2), True)
         return posture.poses(moment, pointing)
 
-    right, left = seen(0.0, False, True), seen(180.0, False, True)
-    head = list(posture.bodies).index(posture.model.body("robot/head").id)
-    assert np.abs(right[head, 3:] - left[head, 3:]).max() > 0.2
-    step = seen(0.0, False, False)  # a neck takes its time
-    assert 0.0 < np.abs(step[head, 3:] - left[head, 3:]).max() < 0.1
+    straight, bent = seen(False), seen(True)
+    for name in ("robot/head", "robot/left_eye", "robot/right_eye"):
+        row, acts = list(posture.bodies).index(posture.model.body(name).id), body.data.body(name)
+        np.testing.assert_allclose(straight[row], [*acts.xpos, *acts.xquat], atol=1e-6)
     finger = list(posture.bodies).index(posture.model.body("robot/r_hand_shown_middle_2").id)
-    straight, bent = seen(0.0, False, True), seen(0.0, True, True)
     assert np.linalg.norm(straight[finger, :3] - bent[finger, :3]) > 0.02
     objects = [list(posture.bodies).index(posture.model.body(name).id) for name in ("blue", "green", "red")]
-    assert right[objects, :2] / 0.0018 == pytest.approx(start.discs, rel=1e-5)
+    assert straight[objects, :2] / 0.0018 == pytest.approx(start.discs, rel=1e-5)
