@@ -1,4 +1,4 @@
-"""A robot as a film shows it: the model of `models.build` with a head that turns, fingers, and an arm at rest.
+"""A robot as a film shows it: that of `models.build` with a head that turns, fingers, and an arm at rest.
 
 Only looked at: what acts is built in `models.physics`, and what is certified in `models.build`.
 """

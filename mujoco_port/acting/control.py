@@ -4,8 +4,8 @@ A position actuator alone lags behind. Its set point is therefore shifted by wha
 
     ctrl = q + (kv q' + tau) / kp,   tau = inverse dynamics of (q, q', q'')
 
-by recursive Newton-Euler (Pinocchio), so that the spring has to make up for contacts only. q holds neck and eyes
-as well as trunk and arm: what a turning head does to the trunk is part of tau.
+by recursive Newton-Euler (Pinocchio), so that the spring has to make up for contacts only. q holds neck and
+eyes as well as trunk and arm: what a turning head does to the trunk is part of tau.
 """
 
 from __future__ import annotations

@@ -88,9 +88,7 @@ class Gaze:
         addresses: [H], where the joints of neck and eyes stand among the model's positions.
     """
 
-    def __init__(
-        self, model: mujoco.MjModel, robot: Robot, presence: Presence, haste: float = 1.0
-    ) -> None:
+    def __init__(self, model: mujoco.MjModel, robot: Robot, presence: Presence, haste: float = 1.0) -> None:
         self._model, self._robot = model, robot
         self._data = mujoco.MjData(model)
         self._head = Head(model, self._data, presence)

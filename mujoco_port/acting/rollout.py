@@ -4,7 +4,8 @@ Whoever gives the orders (`Pilot`) says where S2 is to be, ten times in a second
 the robot makes of it hand targets, joint angles and torques. Everything that a verdict needs is kept for
 every physics step.
 
-Axes: N physics steps of 2 ms, K control steps, J joints that reach, H of the head, 3 objects (blue, green, red).
+Axes: N physics steps of 2 ms, K control steps, J joints that reach, H that turn the head, M = J + H,
+3 objects (blue, green, red).
 """
 
 from __future__ import annotations

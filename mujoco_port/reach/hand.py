@@ -1,4 +1,4 @@
-"""Pinocchio's models of a robot that stands in the world: what reaches, its hand a frame, and all that turns."""
+"""Pinocchio's models of a robot in the world: what reaches, its hand a frame; and all that turns."""
 
 from __future__ import annotations
 

@@ -114,7 +114,8 @@ def test_eyes_that_are_cut_out_leave_head_and_eyes_what_they_were(model, eyes):
         if each is model:
             data.qpos[[joint.qposadr[0] for joint in joints[-4:]]] = eyes
         mujoco.mj_forward(each, data)
-        whole, dofs = np.empty((each.nv, each.nv)), [joint.dofadr[0] for joint in joints[:10]]
-        mujoco.mj_fullM(each, data, whole)
-        matrices.append(whole[np.ix_(dofs, dofs)])
+        units, columns = np.eye(each.nv)[[joint.dofadr[0] for joint in joints[:10]]], np.empty((10, each.nv))
+        for unit, column in zip(units, columns, strict=True):
+            mujoco.mj_mulM(each, data, column, unit)
+        matrices.append(columns @ units.T)
     np.testing.assert_allclose(*matrices, rtol=1e-9, atol=1e-12)

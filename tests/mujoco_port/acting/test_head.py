@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from models.build import ROBOT_PREFIX
-from mujoco_port.acting.eyes import geometric_eyes
 from mujoco_port.acting.exertion import head_exertion, tracking_errors
+from mujoco_port.acting.eyes import geometric_eyes
 from mujoco_port.acting.gaze import looked_at
 from mujoco_port.acting.lab import Lab
 from mujoco_port.acting.open_loop import OpenLoop, planar_angles
@@ -16,7 +16,8 @@ from mujoco_port.acting.rollout import carry_out
 from mujoco_port.film.physical_port import start_of
 
 AWAY = np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]])  # [m], corners of the table
-FURTHER = 1.1  # times as far from its path, at most, as with a head that is held; measured: 1.00 (docs/physics.md)
+# Times as far from its path, at most, as with a head that is held; docs/physics.md has what was measured.
+FURTHER = 1.1
 
 
 @pytest.fixture(scope="module")
