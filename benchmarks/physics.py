@@ -80,7 +80,8 @@ def main() -> None:
         head_efforts += [head_exertion(record, lab.body) for record in records]
     Console().print(table)
     _print_effort(robot.joints, efforts)
-    _print_effort(robot.head_joints, head_efforts)
+    if robot.head_joints:
+        _print_effort(robot.head_joints, head_efforts)
 
 
 def _print_effort(joints: tuple[str, ...], efforts: list[Exertion]) -> None:

@@ -36,8 +36,9 @@ class ContactSensors:
             self._object[model.geom(name).id] = index
         hand = model.site_bodyid[body.hand_site]
         names = [model.geom(geom).name for geom in range(model.ngeom)]
-        self._shape = np.array([name.startswith(SHAPE_PREFIX) for name in names])
-        self._of_hand = self._shape & (model.geom_bodyid == hand)
+        shape = np.array([name.startswith(SHAPE_PREFIX) for name in names])
+        self._tells = shape | (self._object >= 0)  # of the robot's shapes, none meets another
+        self._of_hand = shape & (model.geom_bodyid == hand)
         self._middle = -np.array(body.robot.hand_offset)  # [m], of the hand, seen from its reference point
 
     def read(self) -> tuple[NDArray[np.uint8], float]:
@@ -50,12 +51,9 @@ class ContactSensors:
         touched, depth = np.zeros(3, np.uint8), 0.0
         contacts = self._body.data.contact
         pairs = contacts.geom  # [C, 2]
-        objects = self._object[pairs]
         # The table touches objects all the time; what else does?
-        for index in np.flatnonzero(
-            (objects >= 0).any(axis=1) & (self._shape[pairs] | (objects >= 0)).all(axis=1)
-        ):
-            first, second = objects[index]
+        for index in self._tells[pairs].all(axis=1).nonzero()[0]:
+            first, second = self._object[pairs[index]]
             if first >= 0 and second >= 0:
                 touched[[first, second]] |= OBJECT
                 continue

@@ -96,6 +96,11 @@ class Body:
         self._dynamics_data = self._dynamics.createData()
 
     @property
+    def posture(self) -> NDArray[np.float64]:
+        """Of all joints, [M] in [rad]."""
+        return self.data.qpos[self._turning]
+
+    @property
     def angles(self) -> NDArray[np.float64]:
         """Of the joints that reach, [J] in [rad]."""
         return self.data.qpos[self._angles]
@@ -156,13 +161,18 @@ class Body:
 
     def set_points(self, motion: Motion) -> NDArray[np.float64]:
         """The actuators' controls [N, M] in [rad] for a motion of N moments of M joints."""
-        turned = np.empty((3, *motion.angles.shape))
-        turned[..., self._order] = motion.angles, motion.velocities, motion.accelerations
+        q, v, a = map(self._ordered, (motion.angles, motion.velocities, motion.accelerations))
         torques = np.array(
-            [pin.rnea(self._dynamics, self._dynamics_data, *each) for each in turned.swapaxes(0, 1)]
+            [pin.rnea(self._dynamics, self._dynamics_data, *moment) for moment in zip(q, v, a, strict=True)]
         )[:, self._order]
         torques += (self._passive + self._damping) * motion.velocities
         return motion.angles + torques / self._stiffness
+
+    def _ordered(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Values [N, M] of our joints in the order of the dynamics."""
+        ordered = np.empty_like(values)
+        ordered[:, self._order] = values
+        return ordered
 
     def advance(self, set_point: NDArray[np.float64]) -> None:
         """Take one physics step towards a set point [M] in [rad]."""

@@ -40,6 +40,7 @@ class Head:
         self.neck = np.array([joint.qposadr[0] for joint in neck])
         self._limits = np.array([joint.range for joint in neck]).T
         self._ahead, self._left = np.array(presence.ahead), np.array(presence.left)
+        self._up = np.cross(self._ahead, self._left)
         self._eyes = [model.body(ROBOT_PREFIX + eye.name).id for eye in presence.eyes]
 
     def aim(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -61,18 +62,17 @@ class Head:
         for row, eye in zip(angles, self._eyes, strict=True):
             way = rotation.T @ (place - self._data.xpos[eye])
             way /= np.linalg.norm(way)
-            up = np.cross(self._ahead, self._left)
-            row[:] = np.arctan2(way @ self._left, way @ self._ahead), -np.arcsin(way @ up)
+            row[:] = np.arctan2(way @ self._left, way @ self._ahead), -np.arcsin(way @ self._up)
         return np.clip(angles, -self._presence.eye_range, self._presence.eye_range)
 
     def _off(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
         """How far the face is turned away and tilted, [3]."""
         mujoco.mj_kinematics(self._model, self._data)
         rotation = self._data.xmat[self._body].reshape(3, 3)
-        ahead, left = rotation @ self._ahead, rotation @ self._left
+        left, up = rotation @ self._left, rotation @ self._up
         way = place - self._data.xpos[self._body]
         way /= np.linalg.norm(way)
-        return np.array([way @ left, way @ np.cross(ahead, left) + BELOW, left[2]])
+        return np.array([way @ left, way @ up + BELOW, left[2]])
 
 
 class Gaze:

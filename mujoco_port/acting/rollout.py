@@ -276,7 +276,7 @@ class _Log:
         self._body, self._skin = body, ContactSensors(body)
         self._asked = instruction, scale
         self._filled, self.before = 0, 0  # rows, and those of them that were there before the words
-        n, joints, head = (MOST_STEPS + 1) * body.steps_per_turn, len(body.angles), len(body.head)
+        n, joints = (MOST_STEPS + 1) * body.steps_per_turn, len(body.posture)
         self._kept = {
             "alpha": np.empty(n),
             "still": np.empty(n, bool),
@@ -285,9 +285,6 @@ class _Log:
             "torques": np.empty((n, joints)),
             "hand": np.empty((n, 3)),
             "joints": np.empty((n, joints)),
-            "head": np.empty((n, head)),
-            "head_velocities": np.empty((n, head)),
-            "head_torques": np.empty((n, head)),
             "places": np.empty((n, 3, 7)),
             "contact": np.empty((n, 3), np.uint8),
             "depth": np.empty(n),
@@ -301,18 +298,16 @@ class _Log:
             joints: [4, M] in [rad], of arm and head.
         """
         body, kept, first, count = self._body, self._kept, self._filled, self._body.steps_per_turn
-        reach = len(body.robot.joints)
         rows = slice(first, first + count)
         motion = motion_between(joints, count)
         kept["alpha"][rows] = motion_between(directions, count).angles[:, 0]
         kept["still"][rows] = directions[1, 0] == directions[2, 0]
-        kept["joints"][rows] = motion.angles[:, :reach]
+        kept["joints"][rows] = motion.angles
         for row, set_point in enumerate(body.set_points(motion), start=first):
             body.advance(set_point)
-            kept["angles"][row] = body.angles
-            kept["velocities"][row], kept["head_velocities"][row] = np.split(body.velocities, [reach])
-            kept["torques"][row], kept["head_torques"][row] = np.split(body.torques, [reach])
-            kept["head"][row] = body.head
+            kept["angles"][row] = body.posture
+            kept["velocities"][row] = body.velocities
+            kept["torques"][row] = body.torques
             kept["hand"][row] = body.hand
             kept["places"][row] = body.places
             kept["contact"][row], kept["depth"][row] = self._skin.read()
@@ -330,4 +325,12 @@ class _Log:
     def record(self, orders: list[Angles], since: int = 0) -> PhysicalRecord:
         """What has been kept since a row; views, not copies."""
         kept = {name: array[since : self._filled] for name, array in self._kept.items()}
+        reach = len(self._body.robot.joints)
+        kept["joints"] = kept["joints"][:, :reach]
+        for name, of_head in (
+            ("angles", "head"),
+            ("velocities", "head_velocities"),
+            ("torques", "head_torques"),
+        ):
+            kept[name], kept[of_head] = kept[name][:, :reach], kept[name][:, reach:]
         return PhysicalRecord(*self._asked, np.array(orders), **kept)
