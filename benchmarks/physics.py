@@ -2,14 +2,13 @@
 
 python -m benchmarks.physics [--still] [CHAMPION.npz]
 
-With --still the robot's head is held, as a robot without a presence has it.
+With --still the robot's head is held.
 """
 
 from __future__ import annotations
 
 import sys
 import time
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -51,7 +50,7 @@ def main() -> None:
     with np.load(paths[0], allow_pickle=False) as stored:
         genotype = stored["genotypes"][0]
     robot, readings = get_robot("icub"), Readings()
-    lab = Lab(replace(robot, presence=None) if still else robot)
+    lab = Lab(robot.with_head_held if still else robot)
     robot = lab.body.robot
     trials = draw_trials(Condition.WITH_INDICATE.instructions, 1, readings, np.random.default_rng(3))
     without_objects(lab, genotype, trials[0])  # compiled and warm

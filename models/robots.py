@@ -152,6 +152,11 @@ class Robot:
         """The H joints that turn its head and eyes; none if nothing is known of them."""
         return () if self.presence is None else self.presence.head_joints
 
+    @property
+    def with_head_held(self) -> Robot:
+        """The same with a head that is still in physics; a film of it has no fingers either."""
+        return replace(self, presence=None)
+
 
 ICUB = Robot(
     name="icub",

@@ -90,6 +90,9 @@ class Agree:
     robot: str = "icub"
     """Which humanoid; an unknown name lists those there are."""
 
+    head: Literal["turns", "held"] = "turns"
+    """turns: neck and eyes follow S1. held: they are still, as in results of before."""
+
     processes: int | None = None
     """How many trials at once; by default one for each core."""
 
@@ -125,7 +128,7 @@ class Agree:
         console = Console()
         counted = list(
             track(
-                outcomes(listed, self.robot, self.output, processes),
+                outcomes(listed, self.robot, self.output, processes, self.head),
                 "trials on the robot",
                 total=len(listed),
                 console=Console(stderr=True),

@@ -27,6 +27,7 @@ from arm2d.records import brief
 from models.robots import get_robot
 
 Loop = Literal["open", "delayed", "geometric", "camera"]
+Head = Literal["turns", "held"]
 AREAS: Final = ("right", "left")
 MARK: Final = "# "
 LARGEST: Final = 256 * 2**20  # [bytes], a million trials
@@ -105,14 +106,23 @@ def jobs(agents: Sequence[Candidate], loops: Sequence[Loop], n_starts: int, seed
     return listed
 
 
-def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> Iterator[Outcome]:
+def outcomes(
+    listed: Sequence[Job], robot: str, path: Path, processes: int, head: Head = "turns"
+) -> Iterator[Outcome]:
     """Carry out the jobs that a file does not hold yet, and write them to it; all outcomes, in order.
+
+    Args:
+        listed: The jobs.
+        robot: Name of a record in `models.robots`.
+        path: The file.
+        processes: How many trials at once.
+        head: Whether neck and eyes follow S1.
 
     Raises:
         ValueError: If the file holds outcomes of other trials, or of another version of the robot.
         OSError: If the file cannot be written, or a process was killed.
     """
-    mark = MARK + fingerprint(listed, robot)
+    mark = MARK + fingerprint(listed, robot, head)
     known = _read(path, mark) if path.exists() else []
     yield from known
     left = listed[len(known) :]
@@ -125,7 +135,7 @@ def outcomes(listed: Sequence[Job], robot: str, path: Path, processes: int) -> I
             writer.writerow(field.name for field in fields(Outcome))
         # Spawned, not forked: a forked child would share the parent's state of drawing and linear algebra.
         context = multiprocessing.get_context("spawn")
-        pool = ProcessPoolExecutor(processes, context, initializer=_move_in, initargs=(robot,))
+        pool = ProcessPoolExecutor(processes, context, initializer=_move_in, initargs=(robot, head))
         with _current_folder_is_no_library(), pool:
             try:
                 for outcome in pool.map(carry_out_job, left):
@@ -155,9 +165,9 @@ def _current_folder_is_no_library() -> Iterator[None]:
             os.environ[SAFE_PATH] = before
 
 
-def fingerprint(listed: Sequence[Job], robot: str) -> str:
-    """What determines the outcomes: sources, robot, genotypes and starts."""
-    digest = hashlib.sha256(f"{robot} {sources_digest(*PACKAGES)}".encode())
+def fingerprint(listed: Sequence[Job], robot: str, head: Head = "turns") -> str:
+    """What determines the outcomes: sources, robot and its head, genotypes and starts."""
+    digest = hashlib.sha256(f"{robot} {head} {sources_digest(*PACKAGES)}".encode())
     for job in listed:
         digest.update(f"{job.agent.name} {job.loop} {job.agent.readings.to_mapping()}".encode())
         for array in (
@@ -204,12 +214,13 @@ _lab = None
 _eyes: dict[str, Any] = {}  # by where the camera sits
 
 
-def _move_in(robot: str) -> None:
+def _move_in(robot: str, head: Head = "turns") -> None:
     """Build the robot of this process once."""
     global _lab
     from mujoco_port.acting.lab import Lab
 
-    _lab = Lab(get_robot(robot))
+    chosen = get_robot(robot)
+    _lab = Lab(chosen if head == "turns" else chosen.with_head_held)
     _eyes.clear()
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from arm2d import Instruction, Readings
 from mujoco_port.acting import agreement
-from mujoco_port.acting.agreement import Candidate, Outcome, carry_out_job, jobs, outcomes
+from mujoco_port.acting.agreement import Candidate, Outcome, carry_out_job, fingerprint, jobs, outcomes
 from mujoco_port.acting.camera import CameraEyes
 from mujoco_port.acting.tally import tally
 
@@ -76,6 +76,18 @@ def test_killed_process_is_told_and_what_is_done_is_kept(listed, complete, tmp_p
         list(running)
     assert first == complete[0][0]
     assert whole.startswith(path.read_bytes())
+
+
+def test_a_head_that_is_held_makes_other_outcomes_of_the_same_trials(listed, complete):
+    """Told from the file's mark; its robot has no motors in neck and eyes."""
+    _, path = complete
+    assert path.read_text().startswith(f"# {fingerprint(listed, 'icub')}\n")
+    with pytest.raises(ValueError, match="holds no outcomes of these trials"):
+        list(outcomes(listed, "icub", path, processes=1, head="held"))
+    for head, motors in (("turns", 17), ("held", 10)):
+        agreement._move_in("icub", head)
+        assert agreement._lab.body.model.nu == motors
+    agreement._lab = None
 
 
 def test_agreement_is_the_part_of_the_2d_successes_that_the_robot_shares():

@@ -1,7 +1,5 @@
 """Neck and eyes as motors turn them: within limits and speeds, along S1, and in no way of the hand."""
 
-from dataclasses import replace
-
 import mujoco
 import numpy as np
 import pytest
@@ -23,7 +21,7 @@ FURTHER = 1.1
 @pytest.fixture(scope="module")
 def still(robot):
     """The same robot with a head that is held."""
-    return Lab(replace(robot, presence=None))
+    return Lab(robot.with_head_held)
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +75,7 @@ def test_an_acting_robot_looks_where_s1_points(lab, searching, evolved_agent):
 
 
 def test_verdicts_are_those_of_a_head_that_is_held(lab, still, champion_records, evolved_agent):
-    for planar in champion_records[::4]:
+    for planar in champion_records[::6]:
         trial = start_of(planar)
         one, other = (each.open_loop(evolved_agent, trial, planar.readings)[1] for each in (lab, still))
         assert (one.success, one.certain) == (other.success, other.certain)

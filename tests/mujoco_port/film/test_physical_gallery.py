@@ -33,6 +33,7 @@ def last_clock(take, robot):
         objects=take.objects[moments],
         touched=take.touched[moments],
         planar=take.planar[moments],
+        head=None if take.head is None else take.head[moments],
     )
     with Stage(robot, CELL_WIDTH, VIEW_HEIGHT) as stage:
         *_, cell = cell_pictures(short, stage)
