@@ -22,9 +22,9 @@ from arm2d.constants import DT, MAX_STEPS
 from arm2d.records import brief
 from mujoco_port.acting.contacts import RIGHT_SIDE, ContactSensors
 from mujoco_port.acting.control import Body
-from mujoco_port.acting.gaze import Gaze
 from mujoco_port.acting.stepping_over import stepping_over
 from mujoco_port.acting.trajectory import motion_between
+from mujoco_port.reach.gaze import Gaze
 from mujoco_port.reach.kinematics import ArmKinematics
 from mujoco_port.reach.workspace import hand_headings, hand_targets, on_table, tip_in_plane
 

@@ -18,7 +18,7 @@ from models.build import ROBOT_PREFIX
 from models.filmed import finger_joint
 from models.presence import Presence
 from models.robots import Robot
-from mujoco_port.acting.gaze import Gaze
+from mujoco_port.reach.gaze import Gaze
 
 CURL_S: Final = 0.4  # fingers take so long to bend
 

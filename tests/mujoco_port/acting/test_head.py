@@ -7,11 +7,11 @@ import pytest
 from models.build import ROBOT_PREFIX
 from mujoco_port.acting.exertion import head_exertion, tracking_errors
 from mujoco_port.acting.eyes import geometric_eyes
-from mujoco_port.acting.gaze import looked_at
 from mujoco_port.acting.lab import Lab
 from mujoco_port.acting.open_loop import OpenLoop, planar_angles
 from mujoco_port.acting.rollout import carry_out
 from mujoco_port.film.physical_port import start_of
+from mujoco_port.reach.gaze import looked_at
 
 AWAY = np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]])  # [m], corners of the table
 # Times as far from its path, at most, as with a head that is held; docs/physics.md has what was measured.

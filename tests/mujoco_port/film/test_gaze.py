@@ -7,11 +7,11 @@ import pytest
 from models.build import ROBOT_PREFIX, build_model
 from models.filmed import film_spec
 from models.robots import get_robot
-from mujoco_port.acting.gaze import Gaze, Head, looked_at
 from mujoco_port.film.gaze import bearing
 from mujoco_port.film.physical_port import start_of
 from mujoco_port.film.stage import Stage
 from mujoco_port.film.take import kinematic_take, physical_take
+from mujoco_port.reach.gaze import Gaze, Head, looked_at
 from mujoco_port.reach.kinematics import ArmKinematics
 from mujoco_port.reach.workspace import hand_headings, hand_targets
 
