@@ -60,7 +60,7 @@ def evolution_curve(config: RunConfig, folder: Path, tests: int) -> LearningCurv
     finally:
         scoring.run_trials = run_trials
     curve = LearningCurve.empty("evolution", config.papers_condition, config.seed)
-    for generation in tested(config.settings.generations, tests).tolist():
+    for generation in generations_tested(config.settings.generations, tests).tolist():
         agent = find_agent(folder, generation=generation, rank=0)
         found = evaluate(
             agent.genotype, agent.condition, agent.readings, per_area=TRIALS_PER_AREA, trial_seed=generation
@@ -69,7 +69,7 @@ def evolution_curve(config: RunConfig, folder: Path, tests: int) -> LearningCurv
     return curve
 
 
-def tested(generations: int, tests: int) -> NDArray[np.int64]:
+def generations_tested(generations: int, tests: int) -> NDArray[np.int64]:
     """The numbers of about as many generations as there are tests, the first and the last among them."""
     return np.unique(np.geomspace(1, generations, tests).round().astype(int)) - 1
 
