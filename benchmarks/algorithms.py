@@ -3,10 +3,11 @@
     wordarm experiment docs/examples/algorithms.toml
     python -m benchmarks.algorithms runs/algorithms --output algorithms.csv
 
-Reads the finished runs of an experiment; those that differ by their seeds alone are a row. A run has reached
-18/7 in the first generation whose best fitness is within 0.02 of it. Its CPU time until then is that of
-the whole run, files included, in proportion. Whether held-out instructions are understood is asked of the five
-best of every tenth late generation, as `wordarm study` asks it; its tests are kept beside the runs.
+Reads the finished runs of an experiment; those that differ by their seeds alone are a row. A run has
+reached 18/7 in the first generation whose best fitness is within 0.02 of it. Its CPU time until then is
+that of the whole run, files included, in proportion. Whether held-out instructions are understood is asked
+of the five best of every tenth late generation, as `wordarm study` asks it; its tests are kept beside the
+runs.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The seven instructions learnt by gradients: PPO of Stable-Baselines3, with a memory or without.
+"""The seven instructions learnt by gradients: PPO of Stable-Baselines3, with one of two memories or none.
 
     pip install 'wordarm[rl]'
     python docs/examples/ppo.py FOLDER --steps 8_000_000 --seed 1
@@ -32,12 +32,15 @@ from evolution.figures.page import save_figure
 from evolution.results.learning import TRIALS, LearningCurve, read_curves, write_curves
 
 N_WORLDS = 128
+# The leaky memory: averages of the first 12 inputs (touch, camera, elbow) over so long [s].
+N_SENSED, SPANS = 12, (1.0, 5.0)
 TESTS = 40  # over the whole of a training
 # One rollout is 256 steps of 128 worlds: longer than a trial. The rest are usual values for PPO.
 SETTINGS = {
     "n_steps": 256, "batch_size": 4096, "n_epochs": 6, "gamma": 0.99, "ent_coef": 0.002, "device": "cpu",
 }  # fmt: skip
 LARGEST_RATE = 1e-3  # of learning; falls to 0 by the end
+LEARNERS = {"leaky": "PPO, leaky memory", "lstm": "PPO, LSTM", "none": "PPO, no memory"}
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,8 @@ class Training:
         folder: Where curve and policy go; given again, learning goes on.
         steps: Steps of a trial to learn from.
         seed: Of weights, trials and decisions.
-        memory: An LSTM of 64 cells (RecurrentPPO), or none, two layers of 64 (PPO).
+        memory: Leaky averages of what is sensed, or none, before two layers of 64 (PPO); or an LSTM of 64
+            cells (RecurrentPPO).
         reward: What each step adds to the score ("progress"), or all of it with the last step ("end").
         condition: Which instructions there are.
     """
@@ -56,14 +60,31 @@ class Training:
     folder: Annotated[Path, tyro.conf.Positional]
     steps: int = 8_000_000
     seed: int = 1
-    memory: Literal["lstm", "none"] = "lstm"
+    memory: Literal["leaky", "lstm", "none"] = "leaky"
     reward: Literal["progress", "end"] = "progress"
     condition: Literal["with-indicate", "with-ignore"] = "with-indicate"
 
-    @property
-    def learner(self):
-        """Its name in curves."""
-        return "PPO, LSTM" if self.memory == "lstm" else "PPO, no memory"
+
+class Sight:
+    """What the policies of N worlds are shown: the inputs, and leaky averages of those that are sensed."""
+
+    def __init__(self, training, n):
+        spans = SPANS if training.memory == "leaky" else ()
+        self.rates = np.array([[arm2d.constants.DT / span] for span in spans]).reshape(-1, 1)
+        self.averages = np.zeros((n, len(spans), N_SENSED))
+
+    def first(self, inputs, which):
+        """[N, 18 + averages], as some trials begin."""
+        self.averages[which] = inputs[which, np.newaxis, :N_SENSED]
+        return self._joined(inputs)
+
+    def next(self, inputs):
+        """The same a step later."""
+        self.averages += self.rates * (inputs[:, np.newaxis, :N_SENSED] - self.averages)
+        return self._joined(inputs)
+
+    def _joined(self, inputs):
+        return np.concatenate([inputs, self.averages.reshape(len(inputs), -1)], axis=1, dtype=np.float32)
 
 
 class Worlds(VecEnv):
@@ -73,14 +94,15 @@ class Worlds(VecEnv):
         how = {"condition": training.condition, "reward": training.reward}
         same_step = AutoresetMode.SAME_STEP
         self.worlds = gymnasium.make_vec(NAME, num_envs=N_WORLDS, autoreset_mode=same_step, **how)
-        inputs = Box(0.0, 1.0, self.worlds.single_observation_space.shape, np.float32)
-        super().__init__(N_WORLDS, inputs, self.worlds.single_action_space)
+        self.sight = Sight(training, N_WORLDS)
+        shown = Box(0.0, 1.0, (18 + self.sight.averages[0].size,), np.float32)
+        super().__init__(N_WORLDS, shown, self.worlds.single_action_space)
 
     def reset(self):
         """The inputs of new trials."""
         inputs, _ = self.worlds.reset(seed=self._seeds[0])
         self._reset_seeds()
-        return inputs.astype(np.float32)
+        return self.sight.first(inputs, np.ones(N_WORLDS, bool))
 
     def step_async(self, actions):
         """Take the actions of all worlds ..."""
@@ -89,10 +111,10 @@ class Worlds(VecEnv):
     def step_wait(self):
         """... and carry them out; a trial that ends makes room for another one at once."""
         inputs, rewards, over, _, info = self.worlds.step(self.actions)
-        infos = [{}] * N_WORLDS
+        last, infos = self.sight.next(info.get("final_obs", inputs)), [{}] * N_WORLDS
         for i in np.flatnonzero(over):
-            infos[i] = {"terminal_observation": info["final_obs"][i].astype(np.float32)}
-        return inputs.astype(np.float32), rewards.astype(np.float32), over, infos
+            infos[i] = {"terminal_observation": last[i]}
+        return self.sight.first(inputs, over), rewards.astype(np.float32), over, infos
 
     def close(self):
         """Nothing is open."""
@@ -118,22 +140,22 @@ class Worlds(VecEnv):
 def new_model(training, steps):
     """A learner with random weights; `steps` were made before."""
     rate = {"learning_rate": lambda left: LARGEST_RATE * left, "seed": training.seed + steps}
-    if training.memory == "none":
+    if training.memory != "lstm":
         return PPO("MlpPolicy", Worlds(training), policy_kwargs={"net_arch": [64, 64]}, **SETTINGS, **rate)
     shape = {"net_arch": [], "lstm_hidden_size": 64, "shared_lstm": True, "enable_critic_lstm": False}
     return RecurrentPPO("MlpLstmPolicy", Worlds(training), policy_kwargs=shape, **SETTINGS, **rate)
 
 
-def successes(model, condition, seed):
+def successes(model, training, seed):
     """Of 80 fresh trials of each of the nine instructions, how many succeed, [9]; the likeliest actions."""
-    asked = condition.instructions
+    asked = arm2d.Condition(training.condition).instructions
     rng = np.random.default_rng(seed)
     world = arm2d.VectorWorld(arm2d.draw_trials(asked, TRIALS // 2, arm2d.Readings(), rng))
-    memory, began = None, np.ones(len(world), bool)
+    sight, state, began = Sight(training, len(world)), None, np.ones(len(world), bool)
+    shown = sight.first(world.inputs, began)
     while not world.ended.all():
-        inputs = world.inputs.astype(np.float32)
-        actions, memory = model.predict(inputs, memory, began, deterministic=True)
-        world.step(actions - 1)
+        actions, state = model.predict(shown, state, began, deterministic=True)
+        shown = sight.next(world.step(actions - 1))
         began[:] = False
     return world.scores().success[0].reshape(len(asked), -1).sum(axis=1)
 
@@ -162,7 +184,7 @@ class Tests(BaseCallback):
             return  # learning went on from here
         cpu = self.before + time.process_time() - self.began
         training, steps = self.training, self.num_timesteps
-        found = successes(self.model, self.curve.condition, [training.seed, steps])
+        found = successes(self.model, training, [training.seed, steps])
         self.curve = self.curve.longer(steps, cpu, found)
         seven, never_met = self.curve.experienced[-1], self.curve.held_out[-1].mean()
         print(
@@ -199,12 +221,12 @@ def load_policy(model, path):
 def main(training):
     """Learn, or go on learning; draw the curve, print the last test."""
     torch.set_num_threads(1)
-    condition = arm2d.Condition(training.condition)
-    curve = LearningCurve.empty(training.learner, condition, training.seed)
+    condition, learner = arm2d.Condition(training.condition), LEARNERS[training.memory]
+    curve = LearningCurve.empty(learner, condition, training.seed)
     training.folder.mkdir(parents=True, exist_ok=True)
     if (training.folder / "curve.csv").exists():
         (curve,) = read_curves(training.folder / "curve.csv")
-        if (curve.learner, curve.condition, curve.seed) != (training.learner, condition, training.seed):
+        if (curve.learner, curve.condition, curve.seed) != (learner, condition, training.seed):
             found = f"{curve.learner}, {curve.condition}, seed {curve.seed}"
             raise SystemExit(f"{training.folder} holds {found}; choose another folder")
     model = new_model(training, int(curve.steps[-1]) if len(curve) else 0)

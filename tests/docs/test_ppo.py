@@ -27,7 +27,7 @@ def learn(monkeypatch, *flags):
 
 
 def test_the_adapter_passes_on_what_the_worlds_give(ppo, tmp_path):
-    training = ppo["Training"](tmp_path)
+    training = ppo["Training"](tmp_path, memory="none")
     vector, twin = ppo["Worlds"](training), ppo["Worlds"](training).worlds
     vector.seed(5)
     first, _ = twin.reset(seed=5)
@@ -48,7 +48,29 @@ def test_the_adapter_passes_on_what_the_worlds_give(ppo, tmp_path):
     assert ended >= vector.num_envs
 
 
-@pytest.mark.parametrize("memory", ["none", "lstm"])
+def test_the_leaky_memory_is_of_the_trial_under_way(ppo, tmp_path):
+    vector = ppo["Worlds"](ppo["Training"](tmp_path, memory="leaky"))
+    vector.seed(5)
+    shown = vector.reset()
+    sensed, averages = shown[:, :12].astype(float), shown[:, 18:].reshape(-1, 2, 12)
+    assert np.array_equal(averages, np.repeat(shown[:, np.newaxis, :12], 2, axis=1))
+    expected, rng, ended = np.repeat(sensed[:, np.newaxis], 2, axis=1), np.random.default_rng(1), 0
+    rates = np.array([0.1 / 1.0, 0.1 / 5.0])[:, np.newaxis]
+    for _ in range(260):
+        shown, _, over, infos = vector.step(rng.integers(0, 3, (vector.num_envs, 2)))
+        last = np.array(
+            [info.get("terminal_observation", own) for info, own in zip(infos, shown, strict=True)]
+        )
+        expected += rates * (last[:, np.newaxis, :12].astype(float) - expected)
+        # Inputs reach the policy rounded to 24 bits.
+        np.testing.assert_allclose(last[:, 18:], expected.reshape(len(last), -1), atol=1e-5)
+        expected[over] = shown[over, np.newaxis, :12]
+        np.testing.assert_allclose(shown[:, 18:], expected.reshape(len(last), -1), atol=1e-5)
+        ended += over.sum()
+    assert ended >= vector.num_envs
+
+
+@pytest.mark.parametrize("memory", ["leaky", "lstm", "none"])
 def test_learning_goes_on_from_what_was_stored(ppo, memory, tmp_path, monkeypatch, capsys):
     learn(monkeypatch, tmp_path / "once", "--steps", 30_000, "--memory", memory)
     assert "MOVE Blue" in capsys.readouterr().out
@@ -57,7 +79,7 @@ def test_learning_goes_on_from_what_was_stored(ppo, memory, tmp_path, monkeypatc
     ppo["load_policy"](model, tmp_path / "once" / "policy.npz")
     (curve,) = ppo["read_curves"](tmp_path / "once" / "curve.csv")
     assert curve.steps.tolist() == [0, model.num_timesteps]
-    found = ppo["successes"](model, curve.condition, [training.seed, model.num_timesteps])
+    found = ppo["successes"](model, training, [training.seed, model.num_timesteps])
     assert found.tolist() == curve.successes[-1].tolist()
     ppo["save_policy"](model, tmp_path / "again.npz")
     with np.load(tmp_path / "once" / "policy.npz") as stored, np.load(tmp_path / "again.npz") as again:
