@@ -1,9 +1,10 @@
 """How soon evolution carries out the instructions: a learning curve to stand beside those of other learners.
 
     python -m benchmarks.learning evolution.csv --seeds 1 2 3
+    python -m benchmarks.learning smaller.csv --readings.mutation-sd 0.03
 
-The paper's genetic algorithm under the default, run after run; the best genotype of some generations is
-tested as `docs/examples/ppo.py` tests a policy. CPU time of the whole run, files included, tests not.
+The paper's genetic algorithm, run after run; the best genotype of some generations is tested as
+`docs/examples/ppo.py` tests a policy. CPU time of the whole run, files included, tests not.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ import numpy as np
 import tyro
 from numpy.typing import NDArray
 
-from arm2d import Condition
+from arm2d import Condition, Readings
+from evolution.experiments.variants import variant_name
 from evolution.results.learning import LearningCurve, write_curves
 from evolution.runs.run import Watcher, evolve
 from evolution.runs.sources import find_agent
@@ -59,7 +61,7 @@ def evolution_curve(config: RunConfig, folder: Path, tests: int) -> LearningCurv
         evolve(folder, config, Watcher(on_generation=meter.read))
     finally:
         scoring.run_trials = run_trials
-    curve = LearningCurve.empty("evolution", config.papers_condition, config.seed)
+    curve = LearningCurve.empty(learner_of(config), config.papers_condition, config.seed)
     for generation in generations_tested(config.settings.generations, tests).tolist():
         agent = find_agent(folder, generation=generation, rank=0)
         found = evaluate(
@@ -67,6 +69,12 @@ def evolution_curve(config: RunConfig, folder: Path, tests: int) -> LearningCurv
         )
         curve = curve.longer(*meter.readings[generation], found.successes[0].sum(axis=-1))
     return curve
+
+
+def learner_of(config: RunConfig) -> str:
+    """What evolution is called under these readings."""
+    name = variant_name(config.readings)
+    return "evolution" if name == "default" else f"evolution, {name}"
 
 
 def generations_tested(generations: int, tests: int) -> NDArray[np.int64]:
@@ -80,6 +88,7 @@ def main(
     generations: int = 6000,
     tests: int = 60,
     condition: Condition = Condition.WITH_INDICATE,
+    readings: Readings = Readings(),  # noqa: B008 - frozen
 ) -> None:
     """Evolve with each seed and write the curves.
 
@@ -89,13 +98,14 @@ def main(
         generations: Of each run.
         tests: Of each run.
         condition: Which third action there is.
+        readings: How the paper is understood.
     """
     curves = []
     with tempfile.TemporaryDirectory() as folder:
         # Compile, or load what was compiled, before a clock starts.
         evolve(Path(folder) / "warm", RunConfig(settings=Settings(generations=2)))
         for seed in seeds:
-            config = RunConfig(condition, seed, settings=Settings(generations=generations))
+            config = RunConfig(condition, seed, Settings(generations=generations), readings)
             curves.append(evolution_curve(config, Path(folder) / str(seed), tests))
             end = curves[-1]
             print(

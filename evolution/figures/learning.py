@@ -13,7 +13,7 @@ from evolution.figures.page import SERIES, headed
 from evolution.results.learning import TRIALS, LearningCurve
 
 # Learning from nothing is shown at a time that a logarithmic axis has [s].
-SOONEST = 1.0
+SOONEST = 0.1
 
 
 def learning_figure(curves: Sequence[LearningCurve]) -> Figure:
