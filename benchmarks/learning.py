@@ -63,11 +63,12 @@ def evolution_curve(config: RunConfig, folder: Path, tests: int) -> LearningCurv
         scoring.run_trials = run_trials
     curve = LearningCurve.empty(learner_of(config), config.papers_condition, config.seed)
     for generation in generations_tested(config.settings.generations, tests).tolist():
-        agent = find_agent(folder, generation=generation, rank=0)
+        agent = find_agent(str(folder), generation=generation, rank=0)
         found = evaluate(
             agent.genotype, agent.condition, agent.readings, per_area=TRIALS_PER_AREA, trial_seed=generation
         )
-        curve = curve.longer(*meter.readings[generation], found.successes[0].sum(axis=-1))
+        steps, cpu = meter.readings[generation]
+        curve = curve.longer(steps, cpu, found.successes[0].sum(axis=-1))
     return curve
 
 

@@ -60,7 +60,7 @@ def test_the_curve_of_evolution_is_of_the_run_that_any_command_makes(tmp_path):
     assert (np.diff(found.steps) > 0).all()
     assert found.steps[-1] <= SMALL.settings.generations * SMALL.settings.population * 28 * 250
     assert (np.diff(found.cpu) > 0).all()
-    best = find_agent(tmp_path / "run", generation=int(generations[-1]), rank=0)
+    best = find_agent(str(tmp_path / "run"), generation=int(generations[-1]), rank=0)
     again = evaluate(
         best.genotype, best.condition, best.readings, per_area=40, trial_seed=int(generations[-1])
     )
