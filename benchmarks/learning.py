@@ -41,8 +41,8 @@ class Meter:
     def counting(self, run_trials: Any) -> Any:
         """`run_trials`, with its steps counted."""
 
-        def counted(*arguments: Any) -> Any:
-            scores = run_trials(*arguments)
+        def counted(*arguments: Any, **options: Any) -> Any:
+            scores = run_trials(*arguments, **options)
             self.steps += int(scores.steps.sum())
             return scores
 
