@@ -23,6 +23,7 @@ import numpy as np
 import tyro
 from numpy.typing import NDArray
 from rich.console import Console
+from rich.progress import track
 from rich.table import Table
 
 from evolution.agents.firsts import NEVER, first_row
@@ -176,7 +177,10 @@ def main(folder: Annotated[Path, tyro.conf.Positional], output: Path | None = No
             raise ValueError(
                 f"none of the {len(standings)} runs in {folder} is finished; go on with: wordarm experiment"
             )
-        table = table_of(groups_of(map(outcome_of, runs)))
+        found = [
+            outcome_of(run) for run in track(runs, "measuring", console=Console(stderr=True), transient=True)
+        ]
+        table = table_of(groups_of(found))
     except (ValueError, OSError) as error:
         print(error, file=sys.stderr)
         return BAD_INPUT
