@@ -2,8 +2,8 @@
 
     python -m scripts.docs_figures
 
-draws what tables and results.npz hold: fitness, Table II, generalisers, and all of the study of readings. The
-others need the runs: `wordarm analyse` and `wordarm behaviour` draw them.
+draws what tables and results.npz hold: fitness, Table II, generalisers, learning curves, and all of the study
+of readings. The others need the runs: `wordarm analyse` and `wordarm behaviour` draw them.
 """
 
 from __future__ import annotations
@@ -18,10 +18,12 @@ from arm2d import Condition
 from evolution.agents.subtasks import AgentClass, categories, classify, count_table
 from evolution.experiments.experiment import Experiment
 from evolution.figures.generalisers import generalisers_figure
+from evolution.figures.learning import learning_figure
 from evolution.figures.page import save_figure
 from evolution.figures.paper import fitness_figure, table_figure
 from evolution.results.analysis import PLATEAU_SHARE
 from evolution.results.generalisers import Generalisers, spell_lengths
+from evolution.results.learning import read_curves
 from evolution.results.records import ConditionResults, Results
 from evolution.runs.folder import RunFolder
 from evolution.runs.storage import read_arrays
@@ -43,6 +45,8 @@ def main() -> None:
         ("generalisers", generalisers_figure),
     ):
         print(*save_figure(draw(results), RESULTS / name), sep="\n")
+    curves = read_curves(RESULTS / "learning" / "curves.csv")
+    print(*save_figure(learning_figure(curves), RESULTS / "learning" / "curves"), sep="\n")
     for part, before in PARTS.items():
         others = [] if before is None else read_drawn(RESULTS / "readings" / f"{before}-runs.csv")
         variants = read_drawn(RESULTS / "readings" / f"{part}-runs.csv")

@@ -145,7 +145,7 @@ class InstructionsEnv(gymnasium.Env):
 
 
 class InstructionsVectorEnv(VectorEnv):
-    """N trials side by side, in the compiled world; one that has ended begins anew with the next step.
+    """N trials side by side, in the compiled world; those that have ended begin anew.
 
     Args:
         num_envs: N.
@@ -153,9 +153,10 @@ class InstructionsVectorEnv(VectorEnv):
         instructions: what is asked,
         readings: the world, and
         reward: when it is paid.
+        autoreset_mode: When another trial begins: with the next step, which pays nothing, or with the step
+            that ends one. Then `final_obs` in the information is what was sensed last.
     """
 
-    metadata: ClassVar = {"autoreset_mode": AutoresetMode.NEXT_STEP}  # type: ignore[misc]
     single_observation_space = InstructionsEnv.observation_space
     single_action_space = InstructionsEnv.action_space
 
@@ -166,7 +167,12 @@ class InstructionsVectorEnv(VectorEnv):
         instructions: Asked | Sequence[str] = "experienced",
         readings: Readings | None = None,
         reward: Reward = "end",
+        autoreset_mode: AutoresetMode = AutoresetMode.NEXT_STEP,
     ) -> None:
+        if autoreset_mode is AutoresetMode.DISABLED:
+            raise ValueError("trials that have ended begin anew; choose AutoresetMode.NEXT_STEP or SAME_STEP")
+        self.metadata = {"autoreset_mode": autoreset_mode}
+        self._at_once = autoreset_mode is AutoresetMode.SAME_STEP
         self.num_envs = num_envs
         self.source, self.reward = _Source(condition, instructions, readings), reward
         self.observation_space = batch_space(self.single_observation_space, num_envs)
@@ -186,22 +192,30 @@ class InstructionsVectorEnv(VectorEnv):
     ) -> tuple[
         NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]
     ]:
-        """Turn the joints of all trials; those that ended with the last step begin anew instead."""
+        """Turn the joints of all trials; those that have ended begin anew, at once or instead."""
         began = np.flatnonzero(self._over)
         self.world.step(np.asarray(actions) - 1)
-        if len(began):
-            self.world.restart(began, self.source.draw(len(began), self.np_random))
-            self._paid[began] = 0.0
-        self._over = self.world.ended
+        self._begin(began)
+        over = self.world.ended
         rewards, info = np.zeros(self.num_envs), {}
-        if self._over.any() or self.reward == "progress":
+        if over.any() or self.reward == "progress":
             scores = self.world.scores()
-            paying = np.ones_like(self._over) if self.reward == "progress" else self._over.copy()
+            paying = np.ones_like(over) if self.reward == "progress" else over.copy()
             paying[began] = False
             rewards[paying] = scores.fitness[0, paying] - self._paid[paying]
             self._paid += rewards
-            info = {"success": scores.success[0] & self._over, "_success": self._over.copy()}
-        return self.world.inputs.copy(), rewards, self._over.copy(), np.zeros_like(self._over), info
+            info = {"success": scores.success[0] & over, "_success": over.copy()}
+        if self._at_once and over.any():
+            info |= {"final_obs": self.world.inputs.copy(), "_final_obs": over.copy()}
+            self._begin(np.flatnonzero(over))
+        self._over = self.world.ended
+        return self.world.inputs.copy(), rewards, over, np.zeros_like(over), info
+
+    def _begin(self, which: NDArray[np.int64]) -> None:
+        """Draw other trials in the place of some."""
+        if len(which):
+            self.world.restart(which, self.source.draw(len(which), self.np_random))
+            self._paid[which] = 0.0
 
 
 gymnasium.register(

@@ -66,6 +66,14 @@ def masters(successes: NDArray[np.integer], condition: Condition) -> NDArray[np.
     return np.all(4 * successes[:, known].astype(np.int64) > 3 * TRIALS, axis=1)
 
 
+def carries_out(
+    successes: NDArray[np.integer], condition: Condition, instruction: Instruction
+) -> NDArray[np.bool_]:
+    """Which agents [A] exceed 75 % on every experienced instruction, and on this one besides."""
+    column = successes[:, condition.instructions.index(instruction)].astype(np.int64)
+    return masters(successes, condition) & (4 * column > 3 * TRIALS)
+
+
 def classify(successes: NDArray[np.integer], condition: Condition) -> dict[AgentClass, NDArray[np.bool_]]:
     """Which agents [A] belong to each class; those between the classes belong to none.
 

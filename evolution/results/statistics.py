@@ -142,6 +142,12 @@ def mean_interval(values: NDArray[np.float64], rng: np.random.Generator) -> tupl
     return bootstrap_interval([values], lambda groups: groups[0].mean(axis=1), rng)
 
 
+def proportion_interval(k: int, n: int) -> tuple[float, float]:
+    """95 % interval of k / n: Wilson's."""
+    _, low, high = _wilson(k, n)
+    return low, high
+
+
 def proportions_interval(first: tuple[int, int], second: tuple[int, int]) -> tuple[float, float]:
     """95 % interval of k1 / n1 - k2 / n2, each given as (k, n): Newcombe's, made of Wilson's two."""
     (p1, low1, high1), (p2, low2, high2) = _wilson(*first), _wilson(*second)

@@ -14,6 +14,7 @@ RECIPES = [page for page in sorted(DOCS.rglob("*.md")) if page.name not in ELSEW
 WANTED = {
     "resume",
     "reading",
+    "reinforcement-learning",
     "cluster",
     "algorithm",
     "instruction",

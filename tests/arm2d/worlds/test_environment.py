@@ -4,6 +4,7 @@ import gymnasium
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
+from gymnasium.vector import AutoresetMode
 
 from arm2d import NON_EXPERIENCED, Condition, Instruction, Readings
 from arm2d.worlds.environment import NAME, asked_instructions
@@ -72,6 +73,49 @@ def test_a_trial_that_ended_begins_anew_with_the_next_step():
         assert np.all(observations[before, 11] == 1.0)  # beta is 90 degrees again
         seen += before.sum()
     assert seen >= 80
+
+
+@pytest.mark.parametrize("reward", ["end", "progress"])
+def test_beginning_anew_at_once_pays_every_trial_what_a_single_world_pays_for_it(reward):
+    """Every trial that the vector draws in 510 steps, done again by itself with the actions it had there."""
+    n, rng = 20, np.random.default_rng(4)
+    worlds = gymnasium.make_vec(NAME, num_envs=n, reward=reward, autoreset_mode=AutoresetMode.SAME_STEP)
+    single, ended_trials = gymnasium.make(NAME, reward=reward).unwrapped, 0
+    worlds.reset(seed=3)
+    trials = worlds.unwrapped.world.trials
+    under_way = [(trials[i], []) for i in range(n)]
+    for _ in range(510):
+        actions = rng.integers(0, 3, (n, 2))
+        observations, rewards, over, truncated, info = worlds.step(actions)
+        assert not truncated.any()
+        assert ("final_obs" in info) == over.any()
+        trials = worlds.unwrapped.world.trials
+        for i in range(n):
+            start, made = under_way[i]
+            made.append((actions[i], rewards[i]))
+            if not over[i]:
+                continue
+            single.reset(seed=0)
+            single.world.reset(start.instructions[0], start=start)
+            single._paid = 0.0
+            for action, paid in made:
+                inputs, due, ended, _, one = single.step(action)
+                assert paid == pytest.approx(due, abs=1e-12)
+            assert ended
+            assert info["success"][i] == one["success"]
+            assert np.array_equal(info["final_obs"][i], inputs)
+            # The next trial: S2 bent, the words of what it asks for.
+            under_way[i], ended_trials = (trials[i], []), ended_trials + 1
+            assert observations[i, 11] == 1.0
+            assert np.array_equal(
+                observations[i], single.world.reset(trials.instructions[i], start=trials[i])
+            )
+    assert ended_trials >= 2 * n
+
+
+def test_trials_that_never_begin_anew_are_refused():
+    with pytest.raises(ValueError, match="NEXT_STEP or SAME_STEP"):
+        gymnasium.make_vec(NAME, num_envs=2, autoreset_mode=AutoresetMode.DISABLED)
 
 
 def test_training_never_meets_what_is_held_out():

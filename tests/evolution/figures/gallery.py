@@ -16,6 +16,7 @@ from evolution.figures.compare import compare_figure
 from evolution.figures.concept import concept_figure, example
 from evolution.figures.fans import Fan, fans_figure
 from evolution.figures.generalisers import generalisers_figure
+from evolution.figures.learning import learning_figure
 from evolution.figures.lineage import lineage_figure
 from evolution.figures.neurons import activity_figure, variance_figure
 from evolution.figures.paper import fitness_figure, table_figure
@@ -23,6 +24,7 @@ from evolution.figures.run import fitness_curve, heat_map
 from evolution.figures.states import state_space_figure
 from evolution.figures.transitions import transitions_figure
 from evolution.results.classes import ClassBehaviour
+from evolution.results.learning import LearningCurve
 from evolution.runs.history import History
 from evolution.runs.sources import find_agent
 from evolution.search.evaluation import evaluate
@@ -142,7 +144,20 @@ def fans(n):
     return [Fan(kind, name, behaviour(), agent().readings) for kind in list(AgentClass)[:n]]
 
 
+def curves():
+    """Three learners, the last of which learns one of the two that are never met."""
+    found = []
+    for learner, soonest, seed in (("evolution", 1, 1), ("evolution", 2, 2), ("PPO, LSTM", 30, 1)):
+        curve = LearningCurve.empty(learner, INDICATE, seed).longer(0, 0.0, [0] * 9)
+        for test in range(1, 20):
+            counts = np.minimum(80, np.arange(9) * test)
+            curve = curve.longer(1000 * test, soonest * test**2, counts)
+        found.append(curve)
+    return found
+
+
 FIGURES = {
+    "learning": lambda: learning_figure(curves()),
     "heat-map": lambda: heat_map(evaluate(agent().genotype, INDICATE, Readings()), ORIGIN),
     "fitness-curve": lambda: fitness_curve(history(), ORIGIN),
     "fitness": lambda: fitness_figure(both_conditions()),
