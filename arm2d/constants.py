@@ -36,8 +36,10 @@ GOOD_STEPS_FOR_SUCCESS: Final = 100  # 10 s
 THRESHOLD_TOLERANCE: Final = 1e-9  # [deg], a sum this near a threshold has reached it
 COLLISION_FACTOR: Final = 0.6  # P1 after touching an object that is not the target
 
-# The controller (section IV).
+# The controller (section IV). The paper's has three inter-neurons, and 84 genes; a network may have others
+# (arm2d/genes.py).
 N_INPUTS: Final = 18
 N_INTER: Final = 3
 N_MOTORS: Final = 4
 N_GENES: Final = 84
+MOST_INTER: Final = 16

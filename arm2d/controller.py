@@ -1,7 +1,7 @@
 """From genes to the parameters of the controller, and back (section V; spec section 6).
 
-The controller is a CTRNN of 18 sensory neurons, 3 inter-neurons and 4 motor neurons. Axes:
-P genotypes, 84 genes each.
+The controller is a CTRNN of 18 sensory neurons, N inter-neurons (the paper: three) and 4 motor neurons. Axes:
+P genotypes of G genes each (three: 84), which tell N by their number.
 """
 
 from __future__ import annotations
@@ -13,18 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d.arithmetic import exp
 from arm2d.compiling import compiled
-from arm2d.constants import N_GENES, N_INPUTS, N_INTER, N_MOTORS
+from arm2d.constants import MOST_INTER, N_INPUTS, N_INTER, N_MOTORS
+from arm2d.genes import SIZES, Genes, counted, genes_of, told
 from arm2d.readings import Readings
-
-# Where each parameter stands among the genes.
-SENSORY_GENES = slice(0, 54)
-RECURRENT_GENES = slice(54, 63)
-MOTOR_GENES = slice(63, 75)
-TAU_GENES = slice(75, 78)
-INPUT_BIAS_GENE = 78
-INTER_BIAS_GENES = slice(79, 82)
-MOTOR_BIAS_GENE = 82
-GAIN_GENE = 83
 
 # What a gene of 0 and of 1 stands for.
 SENSORY_WEIGHT_RANGE = (-8.0, 8.0)
@@ -42,12 +33,12 @@ class Networks:
     """The phenotypes of P genotypes.
 
     Attributes:
-        sensory_weights: [P, 18, 3], `[p, i, j]` leads from sensory neuron i to inter-neuron j.
-        recurrent_weights: [P, 3, 3], `[p, k, j]` leads from inter-neuron k to inter-neuron j.
-        motor_weights: [P, 3, 4], `[p, j, m]` leads from inter-neuron j to motor neuron m.
-        decay_constants: [P, 3], tau of the inter-neurons in [s].
+        sensory_weights: [P, 18, N], `[p, i, j]` leads from sensory neuron i to inter-neuron j.
+        recurrent_weights: [P, N, N], `[p, k, j]` leads from inter-neuron k to inter-neuron j.
+        motor_weights: [P, N, 4], `[p, j, m]` leads from inter-neuron j to motor neuron m.
+        decay_constants: [P, N], tau of the inter-neurons in [s].
         input_bias: [P], beta_I, shared by the sensory neurons.
-        inter_biases: [P, 3].
+        inter_biases: [P, N].
         motor_bias: [P], beta_O, shared by the motor neurons.
         gain: [P], g.
     """
@@ -65,8 +56,12 @@ class Networks:
         return f"<Networks of {len(self.gain)} genotype{'s' * (len(self.gain) != 1)}>"
 
 
-def check_genotypes(genotypes: ArrayLike) -> NDArray[np.float64]:
-    """The genotypes as a contiguous array [P, 84]; a single one [84] is a batch of one.
+def check_genotypes(genotypes: ArrayLike, n_inter: int | None = None) -> NDArray[np.float64]:
+    """The genotypes as a contiguous array [P, G]; a single one [G] is a batch of one.
+
+    Args:
+        genotypes: [P, G] or [G]; G is 84 for the paper's network of three inter-neurons.
+        n_inter: How many inter-neurons the networks should have; by default 1 to 16, as the genes tell.
 
     Raises:
         ValueError: If the shape is another, or a gene is not a number in [0, 1].
@@ -74,11 +69,9 @@ def check_genotypes(genotypes: ArrayLike) -> NDArray[np.float64]:
     array = np.ascontiguousarray(genotypes, dtype=np.float64)
     if array.ndim == 1:
         array = array[np.newaxis]
-    if array.ndim != 2 or array.shape[1] != N_GENES:
-        raise ValueError(
-            f"genotypes have shape {np.shape(genotypes)}, this controller needs [P, {N_GENES}]: "
-            "75 weights, 3 decay constants, 5 biases and 1 gain each"
-        )
+    found = SIZES.get(array.shape[1]) if array.ndim == 2 else None
+    if found is None or n_inter not in (None, found):
+        raise ValueError(_other_size(np.shape(genotypes), found, n_inter))
     valid = (array >= 0.0) & (array <= 1.0)  # False for NaN
     if not valid.all():
         genotype, gene = np.argwhere(~valid)[0]
@@ -88,46 +81,62 @@ def check_genotypes(genotypes: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
+def _other_size(shape: tuple[int, ...], found: int | None, n_inter: int | None) -> str:
+    """Why genotypes of this shape are refused."""
+    right = n_inter or N_INTER
+    needs = f"needs [P, {genes_of(right).count}]: {told(right)}"
+    if n_inter is None:
+        least, most = genes_of(1).count, genes_of(MOST_INTER).count
+        others = f"1 to {MOST_INTER} inter-neurons take {least} to {most} genes"
+        return f"genotypes have shape {shape}, this controller {needs}; {others}"
+    have = f", of {counted(found)}" if found else ""
+    return f"genotypes have shape {shape}{have}; a controller of {counted(right)} {needs}"
+
+
 def decode(genotypes: ArrayLike, readings: Readings) -> Networks:
-    """The parameters that the genotypes [P, 84] stand for, under these readings.
+    """The parameters that the genotypes [P, G] stand for, under these readings.
 
     Raises:
         ValueError: As `check_genotypes`.
     """
     flat = decode_flat(genotypes, readings)
-    n = len(flat)
+    n, inter = len(flat), n_inter_of(flat)
+    genes = genes_of(inter)
     return Networks(
-        sensory_weights=flat[:, SENSORY_GENES].reshape(n, N_INPUTS, N_INTER),
-        recurrent_weights=flat[:, RECURRENT_GENES].reshape(n, N_INTER, N_INTER),
-        motor_weights=flat[:, MOTOR_GENES].reshape(n, N_INTER, N_MOTORS),
-        decay_constants=flat[:, TAU_GENES],
-        input_bias=flat[:, INPUT_BIAS_GENE],
-        inter_biases=flat[:, INTER_BIAS_GENES],
-        motor_bias=flat[:, MOTOR_BIAS_GENE],
-        gain=flat[:, GAIN_GENE],
+        sensory_weights=flat[:, genes.sensory].reshape(n, N_INPUTS, inter),
+        recurrent_weights=flat[:, genes.recurrent].reshape(n, inter, inter),
+        motor_weights=flat[:, genes.motor].reshape(n, inter, N_MOTORS),
+        decay_constants=flat[:, genes.tau],
+        input_bias=flat[:, genes.input_bias],
+        inter_biases=flat[:, genes.inter_bias],
+        motor_bias=flat[:, genes.motor_bias],
+        gain=flat[:, genes.gain],
     )
 
 
 def decode_flat(genotypes: ArrayLike, readings: Readings) -> NDArray[np.float64]:
-    """The same parameters in the order of their genes, [P, 84]."""
-    low, high = _ranges(readings)
-    flat = low + (high - low) * check_genotypes(genotypes)
-    _raise_ten_to(flat[:, TAU_GENES])
+    """The same parameters in the order of their genes, [P, G]."""
+    checked = check_genotypes(genotypes)
+    genes = genes_of(n_inter_of(checked))
+    low, high = _ranges(genes, readings)
+    flat = low + (high - low) * checked
+    _raise_ten_to(flat[:, genes.tau])
     return flat
 
 
 def encode(networks: Networks, readings: Readings) -> NDArray[np.float64]:
-    """The genotypes [P, 84] that decode to these networks, up to rounding.
+    """The genotypes [P, G] that decode to these networks, up to rounding.
 
     Raises:
         ValueError: If a parameter lies outside its gene's range.
     """
-    low, high = _ranges(readings)
+    n, inter = networks.decay_constants.shape
+    low, high = _ranges(genes_of(inter), readings)
     flat = np.concatenate(
         [
-            networks.sensory_weights.reshape(-1, N_INPUTS * N_INTER),
-            networks.recurrent_weights.reshape(-1, N_INTER * N_INTER),
-            networks.motor_weights.reshape(-1, N_INTER * N_MOTORS),
+            networks.sensory_weights.reshape(n, N_INPUTS * inter),
+            networks.recurrent_weights.reshape(n, inter * inter),
+            networks.motor_weights.reshape(n, inter * N_MOTORS),
             np.log10(networks.decay_constants),
             networks.input_bias[:, np.newaxis],
             networks.inter_biases,
@@ -142,23 +151,28 @@ def encode(networks: Networks, readings: Readings) -> NDArray[np.float64]:
     return check_genotypes(np.where(np.abs(genes - clipped) < 1e-12, clipped, genes))
 
 
-def _ranges(readings: Readings) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """What a gene of 0 and of 1 stands for, [84] each; for tau the exponent of 10."""
-    ranges = np.empty((N_GENES, 2))
-    ranges[SENSORY_GENES] = SENSORY_WEIGHT_RANGE
-    ranges[RECURRENT_GENES] = INNER_WEIGHT_RANGE
-    ranges[MOTOR_GENES] = INNER_WEIGHT_RANGE
-    ranges[TAU_GENES] = TAU_EXPONENT_MIN, readings.tau_exponent_max
-    ranges[INPUT_BIAS_GENE] = INPUT_BIAS_RANGES[readings.bias_ranges]
-    ranges[INTER_BIAS_GENES] = INNER_BIAS_RANGE
-    ranges[MOTOR_BIAS_GENE] = INNER_BIAS_RANGE
-    ranges[GAIN_GENE] = GAIN_RANGE
+def n_inter_of(checked: NDArray[np.float64]) -> int:
+    """How many inter-neurons the networks of checked genotypes [P, G] have."""
+    return SIZES[checked.shape[1]]
+
+
+def _ranges(genes: Genes, readings: Readings) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """What a gene of 0 and of 1 stands for, [G] each; for tau the exponent of 10."""
+    ranges = np.empty((genes.count, 2))
+    ranges[genes.sensory] = SENSORY_WEIGHT_RANGE
+    ranges[genes.recurrent] = INNER_WEIGHT_RANGE
+    ranges[genes.motor] = INNER_WEIGHT_RANGE
+    ranges[genes.tau] = TAU_EXPONENT_MIN, readings.tau_exponent_max
+    ranges[genes.input_bias] = INPUT_BIAS_RANGES[readings.bias_ranges]
+    ranges[genes.inter_bias] = INNER_BIAS_RANGE
+    ranges[genes.motor_bias] = INNER_BIAS_RANGE
+    ranges[genes.gain] = GAIN_RANGE
     return ranges[:, 0], ranges[:, 1]
 
 
 @compiled
 def _raise_ten_to(exponents: NDArray[np.float64]) -> None:
-    """Replace each x in [P, 3] by 10**x, with the same bits on every machine."""
+    """Replace each x in [P, N] by 10**x, with the same bits on every machine."""
     for p in range(exponents.shape[0]):
         for j in range(exponents.shape[1]):
             exponents[p, j] = exp(LN_10 * exponents[p, j])

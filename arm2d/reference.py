@@ -61,7 +61,7 @@ def run_trial(
     changes: tuple[Instruction, Instruction, int] | None = None,
     task: Task = PAPERS,
 ) -> Score:
-    """Carry out one trial (spec section 8) with a genotype [84].
+    """Carry out one trial (spec section 8) with a genotype, [84] or of a network of another size.
 
     S1 starts at `alpha` [deg], the blue, green and red disc at three (x, y) [cm]. A transition test's
     `changes` are (instruction heard first, instruction heard later, delay); scored is `instruction`. The task
@@ -124,8 +124,8 @@ def controller(genotype: ArrayLike, readings: Readings) -> Callable[[Sequence[fl
     sensory, recurrent, motor = (each[0].tolist() for each in weights)
     tau, bias = net.decay_constants[0].tolist(), net.inter_biases[0].tolist()
     input_bias, motor_bias, gain = float(net.input_bias[0]), float(net.motor_bias[0]), float(net.gain[0])
-    inter = range(c.N_INTER)
-    y = [0.0, 0.0, 0.0]
+    inter = range(len(tau))
+    y = [0.0] * len(tau)
 
     @cache  # most inputs are 0 or 1
     def sensory_neuron(value: float) -> float:

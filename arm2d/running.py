@@ -1,6 +1,6 @@
 """Run trials with genotypes: from records to the compiled kernel and back.
 
-Axes: P genotypes, T trials, K steps.
+Axes: P genotypes of G genes each (a network of three inter-neurons has 84), T trials, K steps.
 """
 
 from __future__ import annotations
@@ -14,15 +14,16 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d import constants as c
 from arm2d.arithmetic import bearing
 from arm2d.compiling import compiled
-from arm2d.controller import check_genotypes, decode_flat
+from arm2d.controller import check_genotypes, decode_flat, n_inter_of
 from arm2d.kernel import exchange
 from arm2d.kernel.loop import run_population
+from arm2d.kernel.network import Inter
 from arm2d.kernel.world import WORD_CODES, tables_of, world_of
 from arm2d.readings import Readings
 from arm2d.tasks.hearing import phase_after, phases, word_bits
 from arm2d.trials import TrialRecord, Trials, TrialScores
 
-NO_RECORDING = np.empty((0, exchange.RECORD_COLUMNS))
+NO_RECORDING = np.empty((0, exchange.RECORD_STATE))
 
 
 def run_trials(
@@ -37,7 +38,8 @@ def run_trials(
     """Run every trial with every genotype, or each genotype's own trials with it.
 
     Args:
-        genotypes: [P, 84], genes in [0, 1]; a single one [84] is a batch of one.
+        genotypes: [P, G], genes in [0, 1]; a single one [G] is a batch of one. The kernel is compiled
+            for each size of network when it is first asked for.
         trials: T trials, the same for all genotypes; or P T, those of one genotype after those of another.
         readings: The world; the default readings if none are given.
         each_own: Whether each genotype has trials of its own.
@@ -60,17 +62,17 @@ def run_trials(
     networks, arrays = decode_flat(genes, readings), arrays_of(trials)
     codes = codes_of(trials) if word_codes is None else word_codes
     world, tables = world_of(readings), tables_of(readings)._replace(codes=codes)
-    outcomes = empty_outcomes(len(genes), n_trials)
+    outcomes, inter = empty_outcomes(len(genes), n_trials), _inter_of(genes)
 
     def run(part: slice) -> None:
         own = exchange.Outcomes._make(each[part] for each in outcomes)
-        run_population(networks[part], arrays, world, tables, own, NO_RECORDING)
+        run_population(networks[part], arrays, world, tables, own, NO_RECORDING, inter)
 
     def run_own(part: slice) -> None:
         for p in range(part.start, part.stop):
             trials_of_p = arrays._make(each[n_trials * p : n_trials * (p + 1)] for each in arrays)
             own = exchange.Outcomes._make(each[p : p + 1] for each in outcomes)
-            run_population(networks[p : p + 1], trials_of_p, world, tables, own, NO_RECORDING)
+            run_population(networks[p : p + 1], trials_of_p, world, tables, own, NO_RECORDING, inter)
 
     parts, run = _parts(len(genes), threads), run_own if each_own else run
     if len(parts) == 1:
@@ -94,7 +96,7 @@ def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None =
     """Run one trial with one genotype and keep every step.
 
     Args:
-        genotype: [84].
+        genotype: [G].
         trial: A batch of one, such as `trials[0]`.
         readings: The world; the default readings if none are given.
 
@@ -108,14 +110,19 @@ def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None =
             f"a recording takes one genotype and one trial, not {len(genes)} and {len(trial)}; "
             "take one by its index, such as genotypes[0] and trials[0]"
         )
-    outcomes = empty_outcomes(1, 1)
-    rows = np.empty((c.MAX_STEPS, exchange.RECORD_COLUMNS))
+    outcomes, inter = empty_outcomes(1, 1), _inter_of(genes)
+    rows = np.empty((c.MAX_STEPS, exchange.RECORD_STATE + len(inter)))
     networks = decode_flat(genes, readings)
     world, tables = world_of(readings), tables_of(readings)._replace(codes=codes_of(trial))
-    run_population(networks, arrays_of(trial), world, tables, outcomes, rows)
+    run_population(networks, arrays_of(trial), world, tables, outcomes, rows, inter)
     scores = TrialScores(*outcomes)
     rows = rows[: scores.steps[0, 0]]
     return record_of(trial, readings, rows, _inputs_of(trial, rows), scores)
+
+
+def _inter_of(genotypes: NDArray[np.float64]) -> Inter:
+    """The size of the networks of checked genotypes [P, G], as the kernel takes it."""
+    return (0.0,) * n_inter_of(genotypes)
 
 
 def codes_of(trials: Trials) -> NDArray[np.int64]:
@@ -179,7 +186,7 @@ def _parts(n: int, threads: int) -> list[slice]:
 def record_of(
     trial: Trials, readings: Readings, rows: NDArray, inputs: NDArray, scores: TrialScores
 ) -> TrialRecord:
-    """A record from the kernel's rows [K, RECORD_COLUMNS] and what was sensed [K, 18]."""
+    """A record from the kernel's rows [K, RECORD_STATE + N] and what was sensed [K, 18]."""
     beta = np.concatenate([[c.BETA_MAX], rows[:, exchange.RECORD_BETA]])
     sides = rows[:, exchange.RECORD_SIDE : exchange.RECORD_SIDE + 3].astype(np.int8)
     return TrialRecord(
@@ -190,7 +197,7 @@ def record_of(
         discs=np.concatenate([trial.discs, _centres_of(trial, rows)]),
         contact=np.concatenate([np.zeros((1, c.N_OBJECTS), np.int8), sides]),
         inputs=inputs,
-        states=rows[:, exchange.RECORD_STATE : exchange.RECORD_STATE + c.N_INTER].copy(),
+        states=rows[:, exchange.RECORD_STATE :].copy(),
         turns=np.stack([rows[:, exchange.RECORD_TURN], np.diff(beta)], axis=-1),
         scores=scores,
         task=trial.task,

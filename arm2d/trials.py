@@ -153,7 +153,7 @@ class TrialRecord:
         discs: [K + 1, 3, 2], centres in [cm].
         contact: [K + 1, 3], where each disc touches S2: 0 nowhere, 1 its right side, 2 its left.
         inputs: [K, 18], what was sensed in each step, I1 to I18.
-        states: [K, 3], the inter-neurons' states y after each step.
+        states: [K, N], the inter-neurons' states y after each step.
         turns: [K, 2], turns of S1 and S2 in each step after clipping [deg].
         scores: F1, F2, F3, success and steps, each [1, 1].
         task: How the words were said, if not as in the paper.

@@ -2,11 +2,11 @@
 
     run = evolution.evolve("run", evolution.RunConfig("with-indicate", seed=13))
     run.history.best                             [G], the highest fitness of each generation
-    run.genotypes(100)                           [P, 84], all of one generation, bred again
+    run.genotypes(100)                           [P, G], all of one generation, bred again
     run.champions[0].evaluate()                  all nine instructions, 80 trials each
     run.champions[0].record("touch green")       one trial, step by step
 
-Axes: G generations, P genotypes of one generation, 84 genes.
+Axes: G generations, P genotypes of one generation, G genes (84 for three inter-neurons).
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Agent(sources.Agent):
     """One evolved controller with the world it evolved in; see `find_agent`, `Run.agent`, `Run.champions`.
 
     Attributes:
-        genotype: [84].
+        genotype: [G].
         condition: Whose instructions it hears.
         readings: The world it evolved in.
         origin: Where it comes from, for people.
@@ -149,7 +149,7 @@ class Run(RunFolder):
         return self.history.fitness
 
     def genotypes(self, generation: int = -1) -> NDArray[np.float64]:
-        """All genotypes of a generation, [P, 84], bred again bit by bit.
+        """All genotypes of a generation, [P, G], bred again bit by bit.
 
         Args:
             generation: From 0; -1 is the last one that is scored.

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from arm2d.constants import N_INTER
+from arm2d.genes import counted
+
 
 class DeviceMemoryError(ValueError):
     """A device has too little memory for what it was asked."""
@@ -20,6 +23,15 @@ class DeviceTaskError(ValueError):
         super().__init__(
             f"a device runs the paper's conditions, with-indicate and with-ignore, not {task}; "
             "leave --device away"
+        )
+
+
+class DeviceSizeError(ValueError):
+    """Networks that the device's kernel does not know."""
+
+    def __init__(self, n_inter: int) -> None:
+        super().__init__(
+            f"a device runs the paper's networks of {counted(N_INTER)}, not of {n_inter}; leave --device away"
         )
 
 

@@ -14,11 +14,11 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from arm2d.constants import MAX_STEPS
-from arm2d.controller import decode_flat
+from arm2d.constants import MAX_STEPS, N_INTER
+from arm2d.controller import check_genotypes, decode_flat, n_inter_of
 from arm2d.device import loop
 from arm2d.device.drives import BEND_ROW
-from arm2d.device.errors import DeviceLostError, DeviceMemoryError, DeviceTaskError
+from arm2d.device.errors import DeviceLostError, DeviceMemoryError, DeviceSizeError, DeviceTaskError
 from arm2d.device.memory import fetched, launched, placed, room
 from arm2d.device.opening import Device
 from arm2d.device.world import worlds_on
@@ -137,6 +137,8 @@ class Laboratory:
         for group in groups:
             if group.trials.task is not None:
                 raise DeviceTaskError(group.trials.task)
+            if (n_inter := n_inter_of(check_genotypes(group.genotypes))) != N_INTER:
+                raise DeviceSizeError(n_inter)
         n_networks = [len(group.genotypes) for group in groups]
         rows = {world: row for row, world in enumerate(dict.fromkeys(group.readings for group in groups))}
         tables, betas = self._tables(tuple(rows))

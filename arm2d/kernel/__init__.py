@@ -1,6 +1,7 @@
 """The compiled trial: all trials of one genotype advance together in lanes.
 
     lanes          where each quantity of a lane stands in the flat state arrays
+    network        how large a network is: the kernel is compiled for each size
     world          what the readings fix for every trial: joint grid, limits, cones
     controller     sense, think, turn
     camera_at_end  what a camera at the end of S1 sees, where the readings have it there

@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.compiling import compiled
-from arm2d.constants import N_INTER, N_OBJECTS
+from arm2d.constants import N_OBJECTS
 from arm2d.kernel import lanes as at
 from arm2d.kernel.lanes import N_LANES, Floats, Integers
+from arm2d.kernel.network import Inter
 
 
 class TrialArrays(NamedTuple):
@@ -51,14 +52,13 @@ NO_CHANGE: Final = -1
 RECORD_ALPHA: Final = 0
 RECORD_BETA: Final = 1
 RECORD_TURN: Final = 2
-RECORD_STATE: Final = 3
-RECORD_BEARING: Final = 6
-RECORD_DISTANCE: Final = 9
-RECORD_SIDE: Final = 12
-RECORD_CAMERA: Final = 15
-RECORD_TOUCH: Final = 16
-RECORD_CHANGED: Final = 17
-RECORD_COLUMNS: Final = 18
+RECORD_BEARING: Final = 3
+RECORD_DISTANCE: Final = 6
+RECORD_SIDE: Final = 9
+RECORD_CAMERA: Final = 12
+RECORD_TOUCH: Final = 13
+RECORD_CHANGED: Final = 14
+RECORD_STATE: Final = 15  # and on: a column for each inter-neuron
 
 
 @compiled(allocates=False)
@@ -70,9 +70,14 @@ def record_step(s: Floats, n: Integers, row: Floats) -> None:
     row[RECORD_CAMERA] = n[at.CAMERA]
     row[RECORD_TOUCH] = n[at.TOUCH]
     row[RECORD_CHANGED] = 1.0 if n[at.WAIT] == at.CHANGED else 0.0
-    for j in range(N_INTER):
-        row[RECORD_STATE + j] = s[at.Y + j * N_LANES]
     for disc in range(N_OBJECTS):
         row[RECORD_BEARING + disc] = s[at.BEARING + disc * N_LANES]
         row[RECORD_DISTANCE + disc] = s[at.DISTANCE + disc * N_LANES]
         row[RECORD_SIDE + disc] = n[at.SIDE + disc * N_LANES]
+
+
+@compiled(allocates=False)
+def record_states(s: Floats, row: Floats, inter: Inter) -> None:
+    """Write down the states of lane 0's inter-neurons."""
+    for j in range(len(inter)):
+        row[RECORD_STATE + j] = s[at.Y + at.NEURON * j]

@@ -2,7 +2,7 @@
 
 Quantity F of lane i stands at `F + i` in the flat array of floats `s` or of integers `n`. Fields at
 constant distances in one array let LLVM see that they do not overlap, so loops over lanes vectorise.
-The drive of the words heard stands apart, in rows: `d[ROW * i]` and on.
+The drive of the words heard stands apart, in rows, one for each lane: `d[row_of(inter) * i]` and on.
 """
 
 from typing import Final
@@ -23,27 +23,28 @@ ALPHA: Final = 0 * N_LANES  # angle of S1 [deg]
 BETA: Final = 1 * N_LANES  # angle of S2 [deg]
 TURN: Final = 2 * N_LANES  # S1's last turn after clipping [deg]
 BEND: Final = 3 * N_LANES  # S2's last turn after clipping [deg]
-Y: Final = 4 * N_LANES  # three fields: states of the inter-neurons
-Z: Final = 7 * N_LANES  # three fields: their outputs, sigmoid(y + beta)
-BEARING: Final = 10 * N_LANES  # three fields: each disc's bearing [deg]
-LOW: Final = 13 * N_LANES  # three fields: right edge of what can be seen of a disc from J1 [deg]
-HIGH: Final = 16 * N_LANES  # three fields: left edge
-DISTANCE: Final = 19 * N_LANES  # three fields: each disc's distance from J1 [cm]
-LIMIT: Final = 22 * N_LANES  # S2 may meet a disc in this step only from below this beta [deg]
-TARGET: Final = 23 * N_LANES  # bearing of the target [deg]
-CONE: Final = 24 * N_LANES  # a good step's largest distance from the target [deg]
-GOAL: Final = 25 * N_LANES  # the run that ends the trial, in steps or [deg]
-COUNT: Final = 26 * N_LANES  # what a good step adds to the run ...
-PUSH: Final = 27 * N_LANES  # ... and what each degree of its turn adds
-RUN: Final = 28 * N_LANES  # current run of good steps, or of turns [deg]
-BEST: Final = 29 * N_LANES  # largest run so far
-FIRST_OFFSET: Final = 30 * N_LANES  # d_i [deg]
-STRETCH: Final = 31 * N_LANES  # largest 1 - beta / 90 with the target in view
-DRIVE: Final = 32 * N_LANES  # three fields: drive of all inputs on each inter-neuron
-N_FLOAT_FIELDS: Final = 35
-
-# Drives are looked up in rows of four: three inter-neurons and a 0, so that a row is one vector.
-ROW: Final = 4
+BEARING: Final = 4 * N_LANES  # three fields: each disc's bearing [deg]
+LOW: Final = 7 * N_LANES  # three fields: right edge of what can be seen of a disc from J1 [deg]
+HIGH: Final = 10 * N_LANES  # three fields: left edge
+DISTANCE: Final = 13 * N_LANES  # three fields: each disc's distance from J1 [cm]
+LIMIT: Final = 16 * N_LANES  # S2 may meet a disc in this step only from below this beta [deg]
+TARGET: Final = 17 * N_LANES  # bearing of the target [deg]
+CONE: Final = 18 * N_LANES  # a good step's largest distance from the target [deg]
+GOAL: Final = 19 * N_LANES  # the run that ends the trial, in steps or [deg]
+COUNT: Final = 20 * N_LANES  # what a good step adds to the run ...
+PUSH: Final = 21 * N_LANES  # ... and what each degree of its turn adds
+RUN: Final = 22 * N_LANES  # current run of good steps, or of turns [deg]
+BEST: Final = 23 * N_LANES  # largest run so far
+FIRST_OFFSET: Final = 24 * N_LANES  # d_i [deg]
+STRETCH: Final = 25 * N_LANES  # largest 1 - beta / 90 with the target in view
+SUM: Final = 26 * N_LANES  # what the inter-neurons drive in one of them, on the way to its next state
+N_WORLD_FIELDS: Final = 27
+# Three more fields for each inter-neuron, NEURON further from one to the next.
+Y: Final = (N_WORLD_FIELDS + 0) * N_LANES  # its state
+Z: Final = (N_WORLD_FIELDS + 1) * N_LANES  # its output, sigmoid(y + beta)
+DRIVE: Final = (N_WORLD_FIELDS + 2) * N_LANES  # drive of all inputs on it
+N_NEURON_FIELDS: Final = 3
+NEURON: Final = N_NEURON_FIELDS * N_LANES
 
 # Fields of `n`.
 CAMERA: Final = 0 * N_LANES  # nine bits, I3 lowest

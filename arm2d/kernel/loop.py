@@ -6,12 +6,11 @@ import numpy as np
 
 from arm2d.arithmetic import sigmoid
 from arm2d.compiling import compiled
-from arm2d.constants import N_INTER, N_OBJECTS
+from arm2d.constants import N_OBJECTS
 from arm2d.kernel import lanes as at
 from arm2d.kernel.camera_at_end import look_from_end
 from arm2d.kernel.contact import touch_discs
 from arm2d.kernel.controller import (
-    INTER_BIAS,
     N_CAMERA_CODES,
     Drives,
     gather_drives,
@@ -20,19 +19,29 @@ from arm2d.kernel.controller import (
     think,
     turn,
 )
-from arm2d.kernel.exchange import NO_CHANGE, Outcomes, TrialArrays, record_step
-from arm2d.kernel.lanes import BLOCK, N_FLOAT_FIELDS, N_INTEGER_FIELDS, N_LANES, ROW, Floats, Integers
+from arm2d.kernel.exchange import NO_CHANGE, Outcomes, TrialArrays, record_states, record_step
+from arm2d.kernel.lanes import (
+    BLOCK,
+    N_INTEGER_FIELDS,
+    N_LANES,
+    N_NEURON_FIELDS,
+    N_WORLD_FIELDS,
+    Floats,
+    Integers,
+)
 from arm2d.kernel.lifetime import finish_lane, start_lane
+from arm2d.kernel.network import Inter, of_neuron, places_of, row_of
 from arm2d.kernel.scores import remember_stretch, score_step, target_in_view
 from arm2d.kernel.world import N_BETA_KEYS, World, WorldTables
 
 
 class Lanes(NamedTuple):
-    """The flat arrays of arm2d.kernel.lanes."""
+    """The flat arrays of arm2d.kernel.lanes, and as many zeros as the network has inter-neurons."""
 
     s: Floats
     n: Integers
     d: Floats
+    inter: Inter
 
 
 @compiled(nogil=True)
@@ -43,30 +52,34 @@ def run_population(
     tables: WorldTables,
     outcomes: Outcomes,
     recording: Floats,
+    inter: Inter,
 ) -> None:
     """Run all trials with every network, one network after the other.
 
     Args:
-        networks: [P, 84] parameters in the order of the genes.
+        networks: [P, G] parameters in the order of the genes.
         trials: `TrialArrays` of T trials.
         world: `World` and
         tables: `WorldTables` of the readings.
         outcomes: `Outcomes` to be filled in.
-        recording: [K, RECORD_COLUMNS] for a single trial of a single network, else [0, RECORD_COLUMNS].
+        recording: [K, RECORD_STATE + N] for a single trial of a single network, else nothing.
+        inter: As many zeros as each network has inter-neurons, N.
     """
+    row = int(row_of(inter))
     lanes = Lanes(
-        np.zeros(N_FLOAT_FIELDS * N_LANES),
+        np.zeros((N_WORLD_FIELDS + N_NEURON_FIELDS * len(inter)) * N_LANES),
         np.zeros(N_INTEGER_FIELDS * N_LANES, np.int64),
-        np.zeros(ROW * N_LANES),
+        np.zeros(row * N_LANES),
+        inter,
     )
     drives = Drives(
-        np.zeros((4, ROW)),
-        np.zeros((N_CAMERA_CODES, ROW)),
-        np.zeros((N_BETA_KEYS, ROW)),
-        np.zeros((5, N_OBJECTS + 1, ROW)),
+        np.zeros((4, row)),
+        np.zeros((N_CAMERA_CODES, row)),
+        np.zeros((N_BETA_KEYS, row)),
+        np.zeros((5, N_OBJECTS + 1, row)),
     )
     for p in range(len(networks)):
-        tabulate_drives(networks[p], tables.betas, tables.codes, drives)
+        tabulate_drives(networks[p], tables.betas, tables.codes, drives, inter)
         _run_network(p, networks[p], trials, world, tables, lanes, drives, outcomes, recording)
 
 
@@ -83,7 +96,7 @@ def _run_network(
     recording: Floats,
 ) -> None:
     """Run all trials with one network, N_LANES at a time."""
-    s, n, d = lanes
+    s, n, d, inter = lanes
     touch, camera, bend, words = drives
     n_trials, objects = len(trials.action), trials.object
     changing, in_sequence = _any_other(trials.delay, NO_CHANGE), _any_other(trials.word_steps, 0)
@@ -96,20 +109,21 @@ def _run_network(
         width = (active + BLOCK - 1) // BLOCK * BLOCK
         if not world.from_end:
             sense_camera(s, n, width, world.white_right, world.white_left)
-        gather_drives(s, n, d, width, touch, camera, bend)
-        think(s, width, network)
-        if turn(s, n, width, network, world.turn) > 0:
+        gather_drives(s, n, d, width, touch, camera, bend, inter)
+        think(s, width, network, inter)
+        if turn(s, n, width, network, world.turn, inter) > 0:
             touch_discs(s, n, active, world, tables.beta_sines, objects)
         if steps < len(recording):
             record_step(s, n, recording[steps])
+            record_states(s, recording[steps], inter)
         if world.from_end:
             look_from_end(s, n, active, objects, world)
         if world.best_stretch:
             remember_stretch(s, n, active, world)
         if changing:
-            _change_words(s, n, d, active, trials, world, words)
+            _change_words(lanes, active, trials, world, words)
         if in_sequence:
-            _say_next_word(n, d, active, trials, words)
+            _say_next_word(lanes, active, trials, words)
         steps += 1
         if score_step(s, n, width, world.keep, world.from_end) == 0:
             continue
@@ -141,27 +155,27 @@ def _start(
     lanes: Lanes, i: int, trial: int, network: Floats, trials: TrialArrays, world: World, words: Floats
 ) -> None:
     """Put lane i at the start of a trial."""
-    s, n, d = lanes
-    for j in range(N_INTER):
-        s[at.Y + j * N_LANES + i] = 0.0
-        s[at.Z + j * N_LANES + i] = sigmoid(0.0 + network[INTER_BIAS + j])
-    start_lane(s, n, i, trial, trials, world)
-    _hear(d, i, trials.heard[trial, 0], words)
+    biases = places_of(lanes.inter).inter_bias
+    for j in range(np.uint64(len(lanes.inter))):
+        lanes.s[of_neuron(at.Y, j) + np.uint64(i)] = 0.0
+        lanes.s[of_neuron(at.Z, j) + np.uint64(i)] = sigmoid(0.0 + network[biases + j])
+    start_lane(lanes.s, lanes.n, i, trial, trials, world)
+    _hear(lanes, i, trials.heard[trial, 0], words)
 
 
 @compiled(allocates=False)
-def _hear(d: Floats, i: int, instruction: Integers, words: Floats) -> None:
+def _hear(lanes: Lanes, i: int, instruction: Integers, words: Floats) -> None:
     """Let lane i hear an instruction (action, object)."""
-    for j in range(N_INTER):
-        d[ROW * i + j] = words[instruction[0], instruction[1], j]
+    row = int(row_of(lanes.inter)) * i
+    for j in range(len(lanes.inter)):
+        lanes.d[row + j] = words[instruction[0], instruction[1], j]
 
 
 @compiled(allocates=False)
-def _change_words(
-    s: Floats, n: Integers, d: Floats, lanes: int, trials: TrialArrays, world: World, words: Floats
-) -> None:
+def _change_words(lanes: Lanes, active: int, trials: TrialArrays, world: World, words: Floats) -> None:
     """Change the instruction where the drawn number of steps has passed since the target was seen."""
-    for i in range(lanes):
+    s, n = lanes.s, lanes.n
+    for i in range(active):
         delay = trials.delay[n[at.TRIAL + i]]
         if delay == NO_CHANGE or n[at.WAIT + i] == at.CHANGED:
             continue
@@ -171,26 +185,27 @@ def _change_words(
             n[at.WAIT + i] = delay
         if n[at.WAIT + i] == 0:
             n[at.WAIT + i] = at.CHANGED
-            _hear(d, i, trials.heard[n[at.TRIAL + i], 1], words)
+            _hear(lanes, i, trials.heard[n[at.TRIAL + i], 1], words)
 
 
 @compiled(allocates=False)
-def _say_next_word(n: Integers, d: Floats, lanes: int, trials: TrialArrays, words: Floats) -> None:
+def _say_next_word(lanes: Lanes, active: int, trials: TrialArrays, words: Floats) -> None:
     """Say the next word, or nothing any more, where the one before has taken its steps."""
-    for i in range(lanes):
-        trial = n[at.TRIAL + i]
-        made, each = n[at.STEP + i] + 1, trials.word_steps[trial]
+    for i in range(active):
+        trial = lanes.n[at.TRIAL + i]
+        made, each = lanes.n[at.STEP + i] + 1, trials.word_steps[trial]
         if each > 0 and (made == each or made == 2 * each):
-            _hear(d, i, trials.heard[trial, made // each], words)
+            _hear(lanes, i, trials.heard[trial, made // each], words)
 
 
 @compiled(allocates=False)
 def _copy_lane(lanes: Lanes, source: int, target: int) -> None:
     """Move a trial to another lane."""
-    s, n, d = lanes
-    for field in range(N_FLOAT_FIELDS):
+    s, n, d, inter = lanes
+    for field in range(N_WORLD_FIELDS + N_NEURON_FIELDS * len(inter)):
         s[field * N_LANES + target] = s[field * N_LANES + source]
-    for j in range(ROW):
-        d[ROW * target + j] = d[ROW * source + j]
     for field in range(N_INTEGER_FIELDS):
         n[field * N_LANES + target] = n[field * N_LANES + source]
+    row = int(row_of(inter))
+    for j in range(row):
+        d[row * target + j] = d[row * source + j]

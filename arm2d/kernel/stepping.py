@@ -30,7 +30,7 @@ class Blocks(NamedTuple):
     """The lanes of N trials and what is seen in them; filled in and kept up by `start` and `step`.
 
     Attributes:
-        s: [B, N_FLOAT_FIELDS * N_LANES] and
+        s: [B, N_WORLD_FIELDS * N_LANES] and
         n: [B, N_INTEGER_FIELDS * N_LANES], the lanes.
         inputs: [N, 18], I1 to I18; the words I13 to I18 are the caller's to set.
     """
@@ -69,7 +69,7 @@ def step(
         world: `World` and
         beta_sines: [N_BETA_KEYS, 2], its table of sines and cosines.
         outcomes: [1, N], filled in for the trials that end with this step.
-        row: [RECORD_COLUMNS], where the first trial is written down; nothing if it is empty.
+        row: [RECORD_STATE] or more, where the first trial is written down; nothing if it is empty.
     """
     for b in range(len(blocks.s)):
         s, n, lanes = blocks.s[b], blocks.n[b], _lanes_of(blocks, b)

@@ -18,7 +18,7 @@ from arm2d import constants as c
 from arm2d.instructions import Instruction
 from arm2d.kernel import stepping
 from arm2d.kernel.controller import OBJECT_WORD_INPUTS
-from arm2d.kernel.lanes import N_FLOAT_FIELDS, N_INTEGER_FIELDS, N_LANES
+from arm2d.kernel.lanes import N_INTEGER_FIELDS, N_LANES, N_WORLD_FIELDS
 from arm2d.kernel.world import tables_of, world_of
 from arm2d.readings import Readings
 from arm2d.running import arrays_of, codes_of, empty_outcomes
@@ -70,7 +70,7 @@ class VectorWorld:
         self._world, self._sines = world_of(self.readings), tables_of(self.readings).beta_sines
         blocks = (len(trials) + N_LANES - 1) // N_LANES
         self._blocks = stepping.Blocks(
-            np.zeros((blocks, N_FLOAT_FIELDS * N_LANES)),
+            np.zeros((blocks, N_WORLD_FIELDS * N_LANES)),
             np.zeros((blocks, N_INTEGER_FIELDS * N_LANES), np.int64),
             np.zeros((len(trials), c.N_INPUTS)),
         )

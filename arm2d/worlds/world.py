@@ -23,6 +23,9 @@ from arm2d.tasks.task import Task
 from arm2d.trials import TrialRecord, Trials, TrialScores, draw_trials
 from arm2d.worlds.vector_world import VectorWorld
 
+# Without a network of ours, a record shows the states of the paper's three inter-neurons as 0.
+_COLUMNS = exchange.RECORD_STATE + c.N_INTER
+
 
 class World:
     """One trial that takes turns of the joints and gives the 18 inputs, bit by bit the kernel's.
@@ -84,7 +87,7 @@ class World:
         """
         if self.ended:
             raise ValueError("this trial is over; begin another one with reset")
-        row, sensed = np.empty(exchange.RECORD_COLUMNS), self.inputs
+        row, sensed = np.zeros(_COLUMNS), self.inputs
         self._current.step(np.asarray(turns)[np.newaxis], row)
         self._rows.append(row)
         self._inputs.append(sensed)
@@ -100,8 +103,7 @@ class World:
 
     def record(self) -> TrialRecord:
         """All steps so far, as `record_trial` gives them; a controller's own states are unknown, hence 0."""
-        rows = np.array(self._rows).reshape(-1, exchange.RECORD_COLUMNS)
-        rows[:, exchange.RECORD_STATE : exchange.RECORD_STATE + c.N_INTER] = 0.0
+        rows = np.array(self._rows).reshape(-1, _COLUMNS)
         return record_of(
             self._current.trials,
             self.readings,

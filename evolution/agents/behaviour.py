@@ -1,6 +1,6 @@
 """What an agent does in trials of all nine instructions, step by step.
 
-Axes: T trials, K + 1 = 251 rows of a trial (row 0 the start, row k the state after step k), 3 neurons.
+Axes: T trials, K + 1 = 251 rows of a trial (row 0 the start, row k the state after step k), N neurons.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import Condition, Instruction, Readings, TrialRecord, Trials, decode, draw_trials, record_trial
 from arm2d.arithmetic import sigmoid
-from arm2d.constants import MAX_STEPS, N_INTER
+from arm2d.constants import MAX_STEPS
 from arm2d.geometry import in_view
 from arm2d.records import brief
 from evolution.agents.firsts import first_row
@@ -36,7 +36,7 @@ class Behaviour:
         steps: [T], steps made.
         alpha: [T, 251], angle of S1 in [deg].
         beta: [T, 251], angle of S2 in [deg].
-        activity: [T, 251, 3], outputs sigma(y + beta_j) of the inter-neurons.
+        activity: [T, 251, N], outputs sigma(y + beta_j) of the inter-neurons.
         first_sight: [T], first row in which the target is in view, or -1. Its row is the state that
             brought it there: what is seen acts on the neurons from the next row on.
         first_touch: [T], first row in which S2 touches the target, or -1; likewise.
@@ -89,7 +89,7 @@ def record_behaviour(
     """Record fresh trials of all nine instructions.
 
     Args:
-        genotype: [84].
+        genotype: [G], or of a network of another size.
         condition: Which nine instructions.
         readings: The world, which should be the one the agent evolved in.
         per_area: Trials of each instruction from each start area.
@@ -101,7 +101,7 @@ def record_behaviour(
     trials = draw_behaviour_trials(condition, readings, per_area, trial_seed)
     records = [record_trial(genotype, trials[i], readings) for i in range(len(trials))]
     biases = decode(genotype, readings).inter_biases[0]
-    outputs = [np.vectorize(sigmoid)(np.vstack([np.zeros(N_INTER), r.states]) + biases) for r in records]
+    outputs = [np.vectorize(sigmoid)(np.vstack([np.zeros(len(biases)), r.states]) + biases) for r in records]
     events = [_events(record) for record in records]
     return Behaviour(
         condition=condition,

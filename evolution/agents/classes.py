@@ -99,7 +99,8 @@ def observe(run: RunFolder, sampling: Sampling = Sampling()) -> Observation:
     evaluation = POST_EVALUATION.read(run)
     by_class = classify(evaluation.agents, run.config.papers_condition)
     members = np.stack([by_class[kind] for kind in CLASSES]).reshape(len(CLASSES), -1, N_BEST)
-    genotypes = late_history(run).best_genotypes if members.any() else np.empty((*members.shape[1:], 84))
+    nobody = np.empty((*members.shape[1:], run.config.settings.n_genes))
+    genotypes = late_history(run).best_genotypes if members.any() else nobody
     chosen = _chosen(members, genotypes, sampling)
     kinds, rows, ranks = np.array(chosen, np.int64).reshape(-1, 3).T
     measured = [_measure(run, genotypes[row, rank], sampling) for _, row, rank in chosen]
@@ -155,7 +156,7 @@ def choose(members: NDArray[np.bool_], genotypes: NDArray[np.float64], most: int
 
     Args:
         members: [L, 5].
-        genotypes: [L, 5, 84].
+        genotypes: [L, 5, G].
         most: How many.
     """
     rows, ranks = np.nonzero(members)

@@ -85,7 +85,7 @@ def lesion_scores(
     """Run the same trials without and with each lesion; they are those of `record_behaviour`.
 
     Args:
-        genotypes: [P, 84], or one [84].
+        genotypes: [P, G], or one [G].
         condition: Which nine instructions.
         readings: The world, which should be the one the agents evolved in.
         per_area: Trials of each instruction from each start area.

@@ -3,7 +3,8 @@
 Parents are recorded as indices, so the line is first walked backwards through them; then the run's
 populations are bred again from generation 0 on, once, and the ancestor of each is kept. Nothing is
 scored. Where a child has two parents (reading `crossover`), the line follows the first, whose genes stand
-before the cut; genes after it then come from outside the line. Axes: G generations of the line, 84 genes.
+before the cut; genes after it then come from outside the line. Axes: G generations of the line, N genes
+(84 for three inter-neurons).
 """
 
 from __future__ import annotations
@@ -13,7 +14,6 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.constants import N_GENES
 from arm2d.records import brief
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History
@@ -30,7 +30,7 @@ class Lineage:
     Attributes:
         generations: [G], 0 to the agent's.
         indices: [G], where the ancestor stands in its generation.
-        genotypes: [G, 84], bit by bit those that the run bred.
+        genotypes: [G, N], bit by bit those that the run bred.
         fitness: [G], what the ancestor scored in the 28 trials of its generation.
         changed: [G], whether its genes are other than its parent's; True in generation 0.
     """
@@ -52,7 +52,7 @@ class Lineage:
 
     @property
     def distinct(self) -> NDArray[np.float64]:
-        """The ancestors without the unchanged copies, [A, 84]."""
+        """The ancestors without the unchanged copies, [A, N]."""
         return self.genotypes[self.changed]
 
     @property
@@ -109,8 +109,8 @@ def ancestor_indices(parents: NDArray[np.integer], last_index: int) -> NDArray[n
 
 
 def _breed_line(folder: RunFolder, history: History, indices: NDArray[np.int64]) -> NDArray[np.float64]:
-    """The genotype at each index of each generation, [G, 84]; every generation is held against the record."""
-    genotypes = np.empty((len(indices), N_GENES))
+    """The genotype at each index of each generation, [G, N]; every generation is held against the record."""
+    genotypes = np.empty((len(indices), folder.config.settings.n_genes))
     population = first_population(folder.config)
     for row, index in enumerate(indices):
         genotypes[row] = population.genotypes[index]

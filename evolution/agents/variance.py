@@ -121,7 +121,7 @@ def variance_shares(behaviour: Behaviour, rows: NDArray[np.int64]) -> VarianceSh
         crossed  mean_ao (m_ao - m_a. - m_.o + m_..)^2
         rest     mean_ao v_ao
 
-    each summed over the three neurons and divided by the sum of all four, the total variance. With few
+    each summed over the neurons and divided by the sum of all four, the total variance. With few
     trials in a cell the first three are a little too large, by about v / trials.
 
     An action word of which an instruction seldom comes to the event (INDICATE to touch) takes no part;

@@ -12,8 +12,8 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from arm2d import ObjectWord
-from arm2d.constants import N_INTER
 from arm2d.drawing import FULL, INK, OBJECT_COLOURS, STYLE, look
+from arm2d.genes import counted
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.variance import VarianceShares, bin_times, events_of, mean_by_instruction
 from evolution.figures.page import FAINT, SHARE_COLOURS, head
@@ -30,18 +30,22 @@ SHARE_LABELS: Final = {
 def activity_figure(behaviour: Behaviour, origin: str = "") -> Figure:
     """A page with each inter-neuron's mean output round each event, a line for each instruction."""
     with look(STYLE):
-        figure = Figure(figsize=(FULL, 5.0))
-        head(figure, "What the three inter-neurons do", origin)
-        panels = figure.subplots(N_INTER, 3, sharey=True, sharex="col")
-        figure.subplots_adjust(left=0.075, right=0.985, top=0.87, bottom=0.14, hspace=0.1, wspace=0.06)
+        count = behaviour.activity.shape[-1]
+        name, row = ("output of neuron", 3.65 / 3) if count <= 3 else ("neuron", 0.75)
+        height = 1.35 + count * row
+        figure = Figure(figsize=(FULL, height))
+        head(figure, f"What the {counted(count)} {'does' if count == 1 else 'do'}", origin)
+        panels = figure.subplots(count, 3, sharey=True, sharex="col", squeeze=False)
+        top, bottom = 1 - 0.65 / height, 0.7 / height
+        figure.subplots_adjust(left=0.075, right=0.985, top=top, bottom=bottom, hspace=0.1, wspace=0.06)
         for column, (event, rows) in enumerate(events_of(behaviour).items()):
             means = mean_by_instruction(behaviour, rows)
-            for neuron in range(N_INTER):
+            for neuron in range(count):
                 draw_activity(panels[neuron, column], means[..., neuron])
             panels[0, column].set_title(event, fontweight="bold")
             panels[-1, column].set_xlabel("time from it [s]")
-        for neuron in range(N_INTER):
-            panels[neuron, 0].set_ylabel(f"output of neuron {neuron + 1}")
+        for neuron in range(count):
+            panels[neuron, 0].set_ylabel(f"{name} {neuron + 1}")
         handles = object_handles() + _action_handles(behaviour)
         figure.legend(handles=handles, loc="lower center", ncols=6)
     return figure

@@ -1,4 +1,4 @@
-"""The network's state space: three outputs, seen from where they spread most."""
+"""The network's state space: all outputs, seen from where they spread most."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from arm2d import ObjectWord
-from arm2d.constants import N_INTER
 from arm2d.drawing import FULL, INK, OBJECT_COLOURS, SMALL, STYLE, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
@@ -20,10 +19,13 @@ from evolution.figures.page import FAINT, beside, head
 
 SHOWN_PER_AREA: Final = 3
 CUBE_COLOUR: Final = "#C9C6BE"
+# Beyond so many neurons only the outline is drawn; those whose axes hardly show in the plane have no name.
+MOST_EDGES_DRAWN: Final = 3
+LEAST_NAMED: Final = 0.3
 
 
 def state_space_figure(behaviour: Behaviour, origin: str = "") -> Figure:
-    """A page with the paths of the three outputs in the plane that shows most of them, by action word."""
+    """A page with the paths of the outputs in the plane that shows most of them, by action word."""
     mean, plane, shares = principal_plane(behaviour.activity)
     actions = [word.action.name for word in behaviour.condition.instructions[::3]]
     with look(STYLE):
@@ -45,12 +47,15 @@ def state_space_figure(behaviour: Behaviour, origin: str = "") -> Figure:
 def principal_plane(
     activity: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Mean [3], plane [3, 2] of most variance, and its shares of variance [2], over all trials and steps."""
+    """Mean [N], plane [N, 2] of most variance, and its shares of variance [2], over all trials and steps."""
     points = activity[np.isfinite(activity).all(axis=-1)]
     mean = points.mean(axis=0)
-    _, sizes, axes = np.linalg.svd(points - mean, full_matrices=False)
+    deviations = points - mean
+    if deviations.shape[1] == 1:  # one output has no plane: the second component is nothing
+        return mean, np.array([[1.0, 0.0]]), np.array([1.0, 0.0])
+    _, sizes, axes = np.linalg.svd(deviations, full_matrices=False)
     # The sign of an axis is arbitrary; its largest weight shall be positive.
-    signs = np.sign(axes[np.arange(N_INTER), np.abs(axes).argmax(axis=1)])
+    signs = np.sign(axes[np.arange(len(axes)), np.abs(axes).argmax(axis=1)])
     shares = np.square(sizes) / max(float(np.square(sizes).sum()), np.finfo(np.float64).tiny)
     return mean, (axes * signs[:, np.newaxis])[:2].T, shares[:2]
 
@@ -79,19 +84,39 @@ def draw_paths(axes: Axes, behaviour: Behaviour, points: NDArray[np.float64], ac
 
 
 def draw_cube(axes: Axes, mean: NDArray[np.float64], plane: NDArray[np.float64]) -> None:
-    """The edges of the cube in which the outputs lie, with each neuron's axis named."""
-    corners = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, -1).T
-    for a in corners:
-        for b in corners:
-            if (b - a).sum() == 1 and np.abs(b - a).sum() == 1:
-                axes.plot(*((np.array([a, b]) - mean) @ plane).T, color=CUBE_COLOUR, lw=0.6, zorder=0)
+    """Where the outputs can be, with each neuron's axis named: a cube, or the outline of one of N axes."""
+    count = len(mean)
+    if count <= MOST_EDGES_DRAWN:
+        corners = np.array(np.meshgrid(*[[0, 1]] * count)).reshape(count, -1).T
+        for a in corners:
+            for b in corners:
+                if (b - a).sum() == 1 and np.abs(b - a).sum() == 1:
+                    axes.plot(*((np.array([a, b]) - mean) @ plane).T, color=CUBE_COLOUR, lw=0.6, zorder=0)
+    else:
+        axes.plot(*(outline(plane) - mean @ plane).T, color=CUBE_COLOUR, lw=0.6, zorder=0)
     axes.margins(0.14)  # room for the neurons' names
     origin = -mean @ plane
-    for neuron in range(N_INTER):
-        tip = (np.eye(N_INTER)[neuron] - mean) @ plane
-        way = (tip - origin) / max(float(np.linalg.norm(tip - origin)), 1e-9)
+    for neuron in range(count):
+        tip = (np.eye(count)[neuron] - mean) @ plane
+        length = float(np.linalg.norm(tip - origin))
+        way = (tip - origin) / max(length, 1e-9)
         look = {"fontsize": SMALL, "color": FAINT, "ha": "center", "va": "center", "zorder": 5}
-        beside(axes, f"neuron {neuron + 1}", tip, 7 * way, **look)
+        if count <= MOST_EDGES_DRAWN:
+            beside(axes, f"neuron {neuron + 1}", tip, 7 * way, **look)
+        elif length >= LEAST_NAMED:
+            axes.plot(*np.array([origin, tip]).T, color=CUBE_COLOUR, lw=0.6, zorder=0)
+            beside(axes, f"{neuron + 1}", tip, 4 * way, **look)
+
+
+def outline(plane: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The outline [2 N + 1, 2], seen in a plane [N, 2], of the cube of all outputs from 0 to 1.
+
+    From its lowest corner on, it is made of all edges and then of all edges back, by their directions.
+    """
+    edges = np.where(plane[:, 1:] < 0.0, -plane, plane)
+    edges = edges[np.argsort(np.arctan2(edges[:, 1], edges[:, 0]))]
+    lowest = plane[plane[:, 1] < 0.0].sum(axis=0)
+    return lowest + np.concatenate([[[0.0, 0.0]], np.cumsum(np.concatenate([edges, -edges]), axis=0)])
 
 
 def _path_handles() -> list[Line2D]:

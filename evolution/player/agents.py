@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from typing import Any, Final
 
+import numpy as np
+from numpy.typing import NDArray
+
+from arm2d.constants import N_GENES
+from arm2d.genes import SIZES, counted
 from arm2d.tasks.task import papers_condition
 from evolution.runs.sources import Agent
 from evolution.search.evaluation import evaluate
@@ -33,8 +38,20 @@ def agent_for_page(source: Agent) -> dict[str, Any]:
     return described(source, name, note, tested.successes[0].sum(axis=-1).tolist())
 
 
+def is_playable(genotype: NDArray[np.float64]) -> bool:
+    """Whether the page can run a genotype [G]: it knows networks of three inter-neurons."""
+    return len(genotype) == N_GENES
+
+
 def described(source: Agent, name: str, note: str, successes: list[int]) -> dict[str, Any]:
-    """An agent under a name, with a note, and how many of 80 tries of each instruction it carried out."""
+    """An agent under a name, with a note, and how many of 80 tries of each instruction it carried out.
+
+    Raises:
+        ValueError: If its network has another size than three.
+    """
+    if not is_playable(source.genotype):
+        found = counted(SIZES[len(source.genotype)])
+        raise ValueError(f"{source.origin} has {found}; the page to play with runs networks of three")
     return {
         "name": name,
         "note": note,

@@ -14,13 +14,14 @@ from typing import Any, Final
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from arm2d.genes import counted
 from evolution.agents.classes import Sampling
 from evolution.agents.postevaluation import TRIALS
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.experiments.stage_times import stage_times
 from evolution.experiments.standing import standing_of
 from evolution.figures.paper import all_figures
-from evolution.player.agents import described
+from evolution.player.agents import described, is_playable
 from evolution.player.page import as_json, player_parts
 from evolution.report.classes import behaviours_kept, class_figures
 from evolution.report.configuration import readings_rows, settings_rows, versions_rows
@@ -79,6 +80,7 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
     shown = replace(results, conditions={c: e for c, e in results.conditions.items() if len(e.runs)})
     best = [(found, best_agent(found)) for found in shown.conditions.values()]
     agents = [_agent(found, agent, results.experiment.path) for found, agent in best if agent is not None]
+    players = [agent["player"] for agent in agents if agent["player"] is not None]
     figures = all_figures(shown) if shown.conditions else {}
     experiment = results.experiment
     return {
@@ -98,7 +100,8 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "figures": {name: figure_uri(figure) for name, figure in figures.items()},
         "agents": agents,
         **_classes(shown),
-        "players": as_json([agent["player"] for agent in agents]),
+        "players": as_json(players) if players else "",
+        "neurons": counted(experiment.all_runs[0].config.settings.inter_neurons),
         "trials": TRIALS,
         "films": list(_films(experiment.path, home)),
         "settings": settings_rows(results),
@@ -124,13 +127,15 @@ def _agent(found: ConditionResults, agent: NotableAgent, experiment: Path) -> di
     }
 
 
-def _player(found: ConditionResults, agent: NotableAgent) -> dict[str, Any]:
-    """What the page's player is told of the agent.
+def _player(found: ConditionResults, agent: NotableAgent) -> dict[str, Any] | None:
+    """What the page's player is told of the agent; None if it cannot run its network.
 
     Raises:
         ValueError: If the agent's run is damaged.
     """
     source = find_agent(str(agent.run.path), generation=agent.generation, rank=agent.rank)
+    if not is_playable(source.genotype):
+        return None
     origin = f"seed {agent.run.config.seed}, generation {agent.generation}, rank {agent.rank}"
     note = f"The {standing_of_best(found)}: {origin}."
     return described(source, TITLES[found.condition], note, agent.successes.tolist())

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from arm2d import Condition
+from arm2d.constants import N_INTER
+from arm2d.genes import counted
 from evolution.agents.subtasks import AgentClass
 from evolution.report.tables import runs_with_generalisers
 from evolution.results import published
@@ -43,6 +45,8 @@ def departures_in_size(results: Results) -> list[str]:
             for name, value in own.to_mapping().items()
             if name in paper and value != paper[name]
         ]
+        if own.inter_neurons != N_INTER:
+            sentences.append(f"networks of {counted(own.inter_neurons)}, not {N_INTER}")
         if own.algorithm != GENETIC:
             sentences.append(f"searched for by {own.algorithm}, not by the paper's genetic algorithm")
     for condition, found in results.conditions.items():

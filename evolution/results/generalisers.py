@@ -142,7 +142,7 @@ def _stays(
     """First row, stay and verdicts of each genotype that was ever a member, each [D], by first row.
 
     Args:
-        genotypes: [L, 5, 84].
+        genotypes: [L, 5, G].
         members: [L, 5].
     """
     flat = genotypes.reshape(-1, genotypes.shape[-1])

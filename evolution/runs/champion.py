@@ -43,7 +43,7 @@ class Candidates:
     """C distinct genotypes and where each was seen last.
 
     Attributes:
-        genotypes: [C, 84].
+        genotypes: [C, G].
         generations: [C].
         ranks: [C], 0 for the best of the generation.
     """

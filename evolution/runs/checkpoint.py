@@ -10,7 +10,6 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.constants import N_GENES
 from evolution.runs.folder import CHECKPOINT, RunFolder
 from evolution.runs.history import History, check_array, check_range, history_from_arrays
 from evolution.runs.storage import DamagedFileError
@@ -57,7 +56,7 @@ def _checked(folder: RunFolder, path: Path, arrays: Mapping[str, NDArray]) -> Ch
     settings = folder.config.settings
     n_genotypes = settings.population
     check_array(path, arrays, "generation", (), np.dtype(np.int64))
-    check_array(path, arrays, "next_genotypes", (n_genotypes, N_GENES), np.dtype(np.float64))
+    check_array(path, arrays, "next_genotypes", (n_genotypes, settings.n_genes), np.dtype(np.float64))
     check_array(path, arrays, "next_parents", (n_genotypes,), np.dtype(np.int64))
     check_range(path, arrays, "generation", 0, settings.generations)
     check_range(path, arrays, "next_genotypes", 0.0, 1.0)

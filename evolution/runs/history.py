@@ -1,6 +1,7 @@
 """What is kept of scored generations, and its arrays in files.
 
-Axes: G generations in a row, P genotypes, the 5 best of each generation, 84 genes.
+Axes: G generations in a row, P genotypes, the 5 best of each generation, N genes (three
+inter-neurons: 84).
 """
 
 from __future__ import annotations
@@ -12,7 +13,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.constants import N_GENES
 from arm2d.records import brief
 from evolution.runs.storage import DamagedFileError
 from evolution.search.algorithm import mean_in_order, rank
@@ -29,7 +29,7 @@ class History:
         generations: [G], their numbers.
         fitness: [G, P], of each genotype.
         parents: [G, P], each genotype's parent as an index into the generation before; -1 in generation 0.
-        best_genotypes: [G, 5, 84], from the best on; equals in the order of their indices.
+        best_genotypes: [G, 5, N], from the best on; equals in the order of their indices.
         best: [G], highest fitness,
         mean: [G],
         median: [G],
@@ -73,7 +73,7 @@ class HistoryBuilder:
         self._parents: list[NDArray] = []
         self._best_genotypes: list[NDArray] = []
         self._readings = config.readings
-        self._n_genotypes = config.settings.population
+        self._n_genotypes, self._n_genes = config.settings.population, config.settings.n_genes
 
     def append(self, population: Population, fitness: NDArray[np.float64]) -> None:
         """Add a generation with the fitness [P] it scored."""
@@ -98,7 +98,7 @@ class HistoryBuilder:
             generations=np.array(self._generations, dtype=np.int32),
             fitness=fitness,
             parents=np.array(self._parents, dtype=np.int16).reshape(n, self._n_genotypes),
-            best_genotypes=best_genotypes.reshape(n, N_BEST, N_GENES),
+            best_genotypes=best_genotypes.reshape(n, N_BEST, self._n_genes),
             best=fitness.max(axis=1),
             mean=mean_in_order(fitness),
             median=np.median(fitness, axis=1),

@@ -29,7 +29,7 @@ class Agent:
     """An agent: a genotype and what is known of it.
 
     Attributes:
-        genotype: [84].
+        genotype: [G], or of a network of another size.
         condition: Whose instructions it hears, or a task of one's own.
         readings: The world it evolved in.
         origin: Where it comes from, for people.
@@ -97,7 +97,7 @@ def _from_run(folder: RunFolder, generation: int | None, rank: int) -> Agent:
 
 
 def _of_generation(folder: RunFolder, generation: int, rank: int) -> NDArray[np.float64]:
-    """The genotype [84] of some rank; beyond the five best that are kept, it is bred again."""
+    """The genotype [G] of some rank; beyond the five best that are kept, it is bred again."""
     scored = recorded_generation(folder, generation)
     n_genotypes = scored.fitness.shape[1]
     if not 0 <= rank < n_genotypes:
@@ -124,12 +124,13 @@ def _from_file(path: Path, rank: int, condition: AnyTask | None) -> Agent:
 def _pick(
     path: Path, arrays: Mapping[str, NDArray], rank: int, config: RunConfig, folder: RunFolder | None
 ) -> Agent:
-    """One of the genotypes of a file."""
+    """One of the genotypes of a file, which must be of the size that its config tells, if it has one."""
     name = next((each for each in ("genotypes", "genotype") if each in arrays), None)
     if name is None:
         raise ValueError(f"{path} has no array genotypes; it has {', '.join(arrays) or 'none'}")
     try:
-        genotypes = check_genotypes(arrays[name])
+        told = folder is not None or "config" in arrays
+        genotypes = check_genotypes(arrays[name], config.settings.inter_neurons if told else None)
     except (ValueError, TypeError) as error:
         raise ValueError(f"{path}: {error}") from None
     if not 0 <= rank < len(genotypes):

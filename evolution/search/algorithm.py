@@ -1,8 +1,8 @@
 """One generation to the next: rank, keep the elites, choose parents, cross, mutate (section V).
 
 Pure functions on arrays; each draw comes from a generator passed in. Axes: P genotypes of a
-generation, C children, 84 genes. Sums are taken one term after the other, so that no bit depends on
-the machine.
+generation, C children, G genes (84 for three inter-neurons). Sums are taken one term after the other, so
+that no bit depends on the machine.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Readings
-from arm2d.constants import N_GENES
 from evolution.search.randomness import draw_gaussian
 from evolution.search.settings import Settings
 
@@ -23,7 +22,7 @@ class Crossings(NamedTuple):
 
     Attributes:
         second_parents: [C], indices into the generation before.
-        cuts: [C], the first gene that is the second parent's; 84 in a child of one parent.
+        cuts: [C], the first gene that is the second parent's; G in a child of one parent.
     """
 
     second_parents: NDArray[np.int64]
@@ -31,8 +30,8 @@ class Crossings(NamedTuple):
 
 
 def initial_genotypes(settings: Settings, rng: np.random.Generator) -> NDArray[np.float64]:
-    """Generation 0: genes uniform in [0, 1), [P, 84]."""
-    return rng.random((settings.population, N_GENES))
+    """Generation 0: genes uniform in [0, 1), [P, G]."""
+    return rng.random((settings.population, settings.n_genes))
 
 
 def rank(fitness: NDArray[np.float64], readings: Readings) -> NDArray[np.int64]:
@@ -66,13 +65,13 @@ def choose_parents(
 def choose_crossings(
     fitness: NDArray[np.float64], settings: Settings, readings: Readings, rng: np.random.Generator
 ) -> Crossings:
-    """Second parents, chosen as the first ones are, and where their genes begin: 1 to 83, if at all.
+    """Second parents, chosen as the first ones are, and where their genes begin: 1 to G - 1, if at all.
 
     Numbers are drawn for every child, crossed or not, so that none depends on its siblings.
     """
     chances, draws, places = rng.random((3, settings.population - settings.elites))
-    cuts = 1 + (places * (N_GENES - 1)).astype(np.int64)
-    cuts[chances >= readings.crossover] = N_GENES
+    cuts = 1 + (places * (settings.n_genes - 1)).astype(np.int64)
+    cuts[chances >= readings.crossover] = settings.n_genes
     return Crossings(_drawn_parents(draws, fitness, settings, readings), cuts)
 
 
@@ -84,14 +83,14 @@ def breed(
     rng: np.random.Generator,
     crossings: Crossings | None = None,
 ) -> NDArray[np.float64]:
-    """The next generation [P, 84]: the elites unchanged, then the children.
+    """The next generation [P, G]: the elites unchanged, then the children.
 
     A child is a mutated copy of its parent, or of the parent's genes up to a cut and a second one's after it.
     """
     offspring = genotypes[parents]
     children = offspring[settings.elites :]
     if crossings is not None:
-        after = np.arange(N_GENES) >= crossings.cuts[:, np.newaxis]  # [C, 84]
+        after = np.arange(children.shape[1]) >= crossings.cuts[:, np.newaxis]  # [C, G]
         children[:] = np.where(after, genotypes[crossings.second_parents], children)
     children[:] = mutate(children, readings.mutation_probability, readings.mutation_sd, rng)
     return offspring
@@ -103,7 +102,7 @@ def mutate(
     """Copies in which some genes are moved; results are clipped to [0, 1].
 
     Args:
-        genotypes: [C, 84].
+        genotypes: [C, G].
         probability: Of each gene, independently, to be moved.
         sd: Standard deviation of the Gaussian offset.
         rng: Draws first which genes are moved, then by how much, gene after gene.

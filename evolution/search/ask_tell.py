@@ -2,12 +2,13 @@
 
     algorithm = begin(config)
     while algorithm.generation < config.settings.generations:
-        genotypes = algorithm.ask()                     # [P, 84]
+        genotypes = algorithm.ask()                     # [P, G]
         algorithm.tell(score(genotypes))                # [P]
 
 All it has learnt is its state, plain arrays by name, and its random numbers follow from the run's seed and
 the generation. So a run can be left and gone on with, and every generation asked for again from the recorded
-fitness alone. Axes: P genotypes of a generation, 84 genes.
+fitness alone. Axes: P genotypes of a generation, G genes
+(84 for three inter-neurons, else what `settings.n_genes` says).
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ class Algorithm(Protocol):
     generation: int
 
     def ask(self) -> NDArray[np.float64]:
-        """The genotypes to be scored, [P, 84] within [0, 1]; the same ones until they are scored."""
+        """The genotypes to be scored, [P, G] within [0, 1]; the same ones until they are scored."""
         ...
 
     def tell(self, fitness: NDArray[np.float64]) -> None:
@@ -49,7 +50,7 @@ class Algorithm(Protocol):
     def state(self) -> dict[str, NDArray]:
         """All that `tell` and the generations after it need, as arrays of numbers by name.
 
-        Two are always among them: `genotypes` [P, 84], as asked for, and `parents` [P], which genotype of the
+        Two are always among them: `genotypes` [P, G], as asked for, and `parents` [P], which genotype of the
         generation before each descends from; -1 where it descends from none.
         """
         ...

@@ -8,7 +8,7 @@ far they lie above the mean of their generation.
 
 What is drawn is drawn from the run's seed and the generation, and linear algebra is done by one thread: a run
 gone on with has the bits it would have had. Another processor's NumPy may round otherwise. Axes: L candidates
-of an iteration, P of a generation, 84 genes.
+of an iteration, P of a generation, G genes (84 for three inter-neurons).
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ LEAST_GAIN: Final = 0.005
 SOLVED: Final = 0.97
 # What of the package's optimiser changes from one iteration to the next, besides mean, sigma and covariance.
 PATHS: Final = {"path_sigma": "_p_sigma", "path_covariance": "_pc", "iteration": "_g"}
-# Beyond, no search gets more candidates: the package makes L matrices of 84 x 84 at a time.
-MOST_CANDIDATES: Final = 3200
+# Beyond, no search gets more candidates: the package makes L matrices of G x G at a time. 3200 of 84 genes.
+MOST_NUMBERS: Final = 3200 * N_GENES * N_GENES
 
 
 class CmaEs:
     """CMA-ES with restarts.
 
     Its state: the distribution (`mean`, `sigma`, `covariance`, two paths, `iteration`), the candidates of the
-    iteration at hand and how far those told lie above the mean (`candidates` [L, 84], `above`), the best
+    iteration at hand and how far those told lie above the mean (`candidates` [L, G], `above`), the best
     fitness of the iteration so far (`level`), the highest level of this search, and for how many iterations
     it has stood (`highest`, `idle`).
 
@@ -53,11 +53,11 @@ class CmaEs:
 
     def __init__(self, config: RunConfig, generation: int = 0, state: State | None = None) -> None:
         self._config, self.generation = config, generation
-        self._size = config.settings.population
+        self._size, self._n_genes = config.settings.population, config.settings.n_genes
         if state is None:
             self._begin_search(self._size)
             return
-        self._state = taken(CMA_ES, state, _shapes(self._size, N_GENES))
+        self._state = taken(CMA_ES, state, _shapes(self._size, self._n_genes))
         done, n_candidates = len(self._state["above"]), len(self._state["candidates"])
         if n_candidates % self._size or done % self._size or not done < n_candidates:
             raise ValueError(
@@ -66,7 +66,7 @@ class CmaEs:
             )
 
     def ask(self) -> NDArray[np.float64]:
-        """The next [P, 84] of the iteration's candidates."""
+        """The next [P, G] of the iteration's candidates."""
         return self._state["genotypes"]
 
     def tell(self, fitness: NDArray[np.float64]) -> None:
@@ -82,7 +82,7 @@ class CmaEs:
         if state["idle"] >= self._config.settings.cma_patience:
             n_candidates = len(state["candidates"])
             twice = 2 * n_candidates
-            self._begin_search(twice if twice <= MOST_CANDIDATES else n_candidates)
+            self._begin_search(twice if twice * self._n_genes**2 <= MOST_NUMBERS else n_candidates)
         else:
             self._move()
 
@@ -106,11 +106,11 @@ class CmaEs:
         self._state = {
             "highest": np.array(0.0),
             "idle": np.array(0),
-            "mean": 0.25 + 0.5 * draws.random(N_GENES),
+            "mean": 0.25 + 0.5 * draws.random(self._n_genes),
             "sigma": np.array(self._config.settings.cma_sigma),
-            "covariance": np.eye(N_GENES),
-            "path_sigma": np.zeros(N_GENES),
-            "path_covariance": np.zeros(N_GENES),
+            "covariance": np.eye(self._n_genes),
+            "path_sigma": np.zeros(self._n_genes),
+            "path_covariance": np.zeros(self._n_genes),
             "iteration": np.array(0),
         }
         self._draw(n_candidates)

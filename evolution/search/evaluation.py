@@ -76,7 +76,7 @@ def evaluate(
     """Run fresh trials of all instructions.
 
     Args:
-        genotypes: [P, 84], or one [84]. All meet the same trials.
+        genotypes: [P, G], or one [G]; 84 genes for three inter-neurons. All meet the same trials.
         condition: Which nine instructions; its name, such as "with-ignore", will do. Or a task of your own.
         readings: The world, which should be the one they evolved in; the default readings if none are given.
         per_area: Trials of each instruction from each start area.

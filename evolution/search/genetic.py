@@ -32,7 +32,7 @@ class GeneticAlgorithm:
         self._genotypes, self._parents = state["genotypes"], state["parents"]
 
     def ask(self) -> NDArray[np.float64]:
-        """The generation, [P, 84]: random genotypes; later the elites, then the children."""
+        """The generation, [P, G]: random genotypes; later the elites, then the children."""
         return self._genotypes
 
     def tell(self, fitness: NDArray[np.float64]) -> None:
@@ -49,5 +49,5 @@ class GeneticAlgorithm:
         self._genotypes = breed(self._genotypes, self._parents, settings, readings, draw_mutations, crossings)
 
     def state(self) -> dict[str, NDArray]:
-        """The generation: `genotypes` [P, 84] and `parents` [P]."""
+        """The generation: `genotypes` [P, G] and `parents` [P]."""
         return {"genotypes": self._genotypes, "parents": self._parents}

@@ -19,7 +19,7 @@ class Population:
 
     Attributes:
         generation: Its number, from 0.
-        genotypes: [P, 84].
+        genotypes: [P, G].
         parents: [P], each genotype's parent as an index into the generation before, where there are two
             (reading `crossover`) the first, whose genes stand before the cut; -1 where there is none.
         memory: The other arrays of the algorithm's state, by name; the genetic algorithm has none.

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
+from arm2d import Instruction, Readings, Trials, check_genotypes, draw_trials, run_trials
 from arm2d.tasks.task import AnyTask
 from evolution.search.algorithm import mean_in_order
 from evolution.search.config import RunConfig
@@ -41,7 +41,11 @@ def score_population(population: Population, config: RunConfig) -> NDArray[np.fl
     """Fitness of each genotype: the mean of F1 + F2 + F3 over the generation's trials, [P].
 
     All genotypes meet the same trials, or each its own (reading `starts_shared`).
+
+    Raises:
+        ValueError: If an algorithm has asked for networks of another size than the run's.
     """
+    check_genotypes(population.genotypes, config.settings.inter_neurons)
     trials, each_own = trials_of(population, config)
     scores = run_trials(population.genotypes, trials, config.readings, each_own=each_own)
     return mean_in_order(scores.fitness)

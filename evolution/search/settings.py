@@ -7,6 +7,9 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from typing import Any, Final
 
+from arm2d.constants import MOST_INTER, N_INTER
+from arm2d.genes import genes_of
+
 # How many of each generation's genotypes are kept. The paper's post-evaluation takes five.
 N_BEST: Final = 5
 # The largest fitness of one trial: F1, F2 and F3 are at most 1 each.
@@ -16,11 +19,12 @@ LARGEST_TRIAL_FITNESS: Final = 3.0
 LARGEST_FITNESS: Final = 18 / 7
 GENETIC: Final = "genetic"
 CMA_ES: Final = "cma-es"
-# Whose settings these are. Files name them only where they are not the default, so that those written before
-# there were other algorithms keep their bytes.
+# Whose settings these are.
 OF_GENETIC: Final = ("elites", "parents")
 OF_CMA_ES: Final = ("cma_sigma", "cma_patience")
-ADDED: Final = ("algorithm", *OF_CMA_ES)
+# Files name these only where they are not the default: those written before there were other algorithms, and
+# other networks, keep their bytes.
+ADDED: Final = ("algorithm", *OF_CMA_ES, "inter_neurons")
 NAME: Final = re.compile(r"[a-z][a-z0-9-]{0,39}")
 
 
@@ -52,6 +56,9 @@ class Settings:
     cma_patience: int = 100
     """CMA-ES: begins anew, with twice as many candidates, when so many iterations brought nothing better."""
 
+    inter_neurons: int = N_INTER
+    """Inter-neurons of each network, 1 to 16; the paper's has three (docs/how-to/size.md)."""
+
     def __post_init__(self) -> None:
         for field in fields(self):
             _check_kind(field.name, getattr(self, field.name), field.default)
@@ -59,6 +66,7 @@ class Settings:
         _check_interval("population", self.population, N_BEST, 10_000)
         _check_interval("generations", self.generations, 1, 1_000_000)
         _check_interval("trials_per_area", self.trials_per_area, 1, 1_000)
+        _check_interval("inter_neurons", self.inter_neurons, 1, MOST_INTER)
         if not NAME.fullmatch(self.algorithm):
             raise ValueError(
                 f"setting algorithm = {self.algorithm!r} is no name; give genetic, cma-es, or small letters, "
@@ -74,6 +82,11 @@ class Settings:
             _check_interval("cma_patience", self.cma_patience, 1, 1_000_000)
         else:
             self._refuse_foreign(OF_CMA_ES, CMA_ES)
+
+    @property
+    def n_genes(self) -> int:
+        """Genes of each genotype: 84 for three inter-neurons."""
+        return genes_of(self.inter_neurons).count
 
     def _refuse_foreign(self, names: tuple[str, ...], owner: str) -> None:
         """Refuse settings of an algorithm that is not the one that searches."""

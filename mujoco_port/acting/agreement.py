@@ -42,7 +42,7 @@ class Candidate:
 
     Attributes:
         name: What its rows are called.
-        genotype: [84].
+        genotype: [G].
         instructions: The nine of its condition.
         readings: Its world.
     """

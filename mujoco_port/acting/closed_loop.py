@@ -27,7 +27,7 @@ class ClosedLoop:
     """An agent with a robot's body.
 
     Args:
-        genotype: [84].
+        genotype: [G].
         instruction: What is heard.
         alpha: [deg], where S1 starts.
         readings: How the paper is understood.

@@ -47,7 +47,7 @@ class Lab:
         """Let the agent live in the 2D world, and the robot do what S2 does there.
 
         Args:
-            genotype: [84].
+            genotype: [G].
             trial: A batch of one.
             readings: The world.
             delay: Steps by which the agent is answered late there; 1 as late as in closed loop.
@@ -66,7 +66,7 @@ class Lab:
         """Let the agent live in the robot.
 
         Args:
-            genotype: [84].
+            genotype: [G].
             trial: A batch of one.
             readings: How the paper is understood.
             eyes: What it sees; without, it knows where the objects are.

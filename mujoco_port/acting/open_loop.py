@@ -20,7 +20,7 @@ class PlanarAgent:
     """An agent that lives in the 2D world, one step at a time.
 
     Args:
-        genotype: [84].
+        genotype: [G].
         alpha: [deg], where S1 starts.
         discs: [3, 2] in [cm], centres of blue, green and red.
         readings: The world.
@@ -83,7 +83,7 @@ def planar_angles(
     a few degrees later: until then agent and world go on as they did.
 
     Args:
-        genotype: [84].
+        genotype: [G].
         instruction: What is heard.
         alpha: [deg], where S1 starts.
         discs: [3, 2] in [cm], centres of blue, green and red.

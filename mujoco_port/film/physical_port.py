@@ -40,7 +40,7 @@ def port_physical_trial(
 
     Args:
         record: The trial in the 2D world, with its start.
-        genotype: [84], of the agent; None if there is none: the robot follows the record to its end.
+        genotype: [G], of the agent; None if there is none: the robot follows the record to its end.
         output: The video; None if none is wanted.
         robot: Name of a record in `models.robots`.
         closed_loop: Where the agent's inputs come from: None, the 2D world; "geometric", the robot's skin and
@@ -85,7 +85,7 @@ def port_physical_gallery(
 
     Args:
         records: Nine trials in the 2D world, row by row.
-        genotype: [84], of the agent.
+        genotype: [G], of the agent.
         title: What stands above them; how many the robot has carried out is added.
         output: The video; its folder has to be there, and the picture will lie beside it.
         robot: Name of a record in `models.robots`.

@@ -37,7 +37,7 @@ def port_trial(
         record: The trial.
         output: The video; its folder has to be there.
         robot: Name of a record in `models.robots`.
-        genotype: [84], of the agent: then its neurons are shown, else what they brought about.
+        genotype: [G], of the agent: then its neurons are shown, else what they brought about.
         quality: "draft", "normal" or "high".
 
     Returns:

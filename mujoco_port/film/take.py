@@ -32,7 +32,7 @@ class Mind:
 
     Attributes:
         inputs: [K, 18], I1 to I18.
-        rates: [K, 3], of the inter-neurons, from 0 to 1.
+        rates: [K, N], of the inter-neurons, from 0 to 1.
         motors: [K, 4], of the motor neurons, from 0 to 1.
         share: [K + 1], how much of what is asked is done.
         score: [K + 1], F1 + F2 + F3 so far; None where none is defined.
@@ -78,7 +78,7 @@ def mind_of(record: TrialRecord, genotype: ArrayLike | None) -> Mind:
 def think(
     inputs: NDArray[np.float64], genotype: ArrayLike, readings: Readings
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """What inter-neurons [K, 3] and motor neurons [K, 4] do while these inputs [K, 18] come in (eq. 1 to 3).
+    """What inter-neurons [K, N] and motor neurons [K, 4] do while these inputs [K, 18] come in (eq. 1 to 3).
 
     To be looked at: what decides a trial is the kernel's arithmetic.
     """
@@ -88,9 +88,9 @@ def think(
 
 
 def thinking(genotype: ArrayLike, readings: Readings) -> Neurons:
-    """The network, step by step: from 18 inputs to its inter-neurons [3] and motor neurons [4]."""
+    """The network, step by step: from 18 inputs to its inter-neurons [N] and motor neurons [4]."""
     net = decode(genotype, readings)
-    y = np.zeros(c.N_INTER)
+    y = np.zeros(net.decay_constants.shape[1])
 
     def step(inputs: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         nonlocal y
@@ -163,7 +163,7 @@ def kinematic_take(
         record: The trial.
         robot: Who follows it.
         frames_per_step: Moments for each control step.
-        genotype: [84], of the agent; without it its neurons are shown by what they brought about.
+        genotype: [G], of the agent; without it its neurons are shown by what they brought about.
 
     Raises:
         OutOfReachError: If the robot cannot follow.
@@ -191,7 +191,7 @@ def physical_take(
         planar: The same trial in the planar world.
         record: What the robot did.
         verdict: What became of it.
-        genotype: [84], of the agent.
+        genotype: [G], of the agent.
     """
     rows_per_step = len(record.alpha) // record.steps
     rows = np.arange(0, len(record.alpha), round(rows_per_step / FRAMES_PER_STEP))

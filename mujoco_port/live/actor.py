@@ -17,7 +17,7 @@ class Actor:
 
     Attributes:
         name: For people.
-        genotype: [84].
+        genotype: [G].
         readings: The world it evolved in.
         instructions: The nine that it hears.
     """

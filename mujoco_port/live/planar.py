@@ -17,7 +17,7 @@ class PlanarTrial:
     """An agent in the 2D world; in open loop the robot's pilot.
 
     Args:
-        genotype: [84].
+        genotype: [G].
         instruction: What is heard and judged.
         alpha: [deg], where S1 starts.
         discs: [3, 2] in [cm].

@@ -167,7 +167,7 @@ class Session:
         }
 
     def traces(self) -> list[list[float]]:
-        """Rates [K, 3] of the inter-neurons since the start, for whoever comes later."""
+        """Rates [K, N] of the inter-neurons since the start, for whoever comes later."""
         return np.round(self._rates, 4).tolist()
 
     def _prepare(self) -> None:

@@ -65,7 +65,7 @@ class LiveTrial:
 
     Args:
         lab: The robot at its table.
-        genotype: [84], of the agent.
+        genotype: [G], of the agent.
         readings: Its world.
         instruction: What is heard first.
         start: Where it begins.

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Final
 
 from arm2d import Condition
-from arm2d.device.errors import DeviceTaskError
+from arm2d.constants import N_INTER
+from arm2d.device.errors import DeviceSizeError, DeviceTaskError
 from arm2d.device.opening import CUDA, PROCESSOR, check_name, cuda_names, open_device
 from evolution.child import reference
 from evolution.experiments.device.stages import evolve_batch, test_runs_on
@@ -66,7 +67,7 @@ class DeviceShares:
     runs_at_once: int | None = None
 
     def check(self, configs: Iterable[RunConfig]) -> None:
-        """Refuse runs whose task the devices do not know, before anything is written.
+        """Refuse runs whose task or network the devices do not know, before anything is written.
 
         Raises:
             ValueError: If there is one.
@@ -74,6 +75,8 @@ class DeviceShares:
         for config in configs:
             if not isinstance(config.condition, Condition):
                 raise DeviceTaskError(config.condition)
+            if config.settings.inter_neurons != N_INTER:
+                raise DeviceSizeError(config.settings.inter_neurons)
 
     def waves(self, chains: Sequence[Sequence[Job]]) -> list[Sequence[Sequence[Job]]]:
         """The stages of as many runs as are done at once, and then of others."""

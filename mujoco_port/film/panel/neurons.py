@@ -1,4 +1,4 @@
-"""Three inter-neurons over time, and four motor neurons."""
+"""The inter-neurons over time, and four motor neurons."""
 
 from __future__ import annotations
 
@@ -14,19 +14,20 @@ from arm2d.drawing import INK
 from mujoco_port.film.panel.sheet import HEIGHT, LEFT, QUIET, RIGHT, UNLIT, rule, write
 
 NEURONS_TOP, MOTORS_TOP = 312, 476  # [px]
-NEURONS: Final = ("#1A1A1A", "#7A5AA8", "#B07C1E")
+NEURONS: Final = ("#1A1A1A", "#7A5AA8", "#B07C1E", "#2F7F86", "#9B2F4B", "#6E7A2A", "#4A5FA5", "#8A877F")
 MOTORS: Final = ("S1 go", "S1 way", "S2 go", "S2 way")
 TRACE_S: Final = 25.0
 
 
-def draw_neurons(axes: Axes) -> tuple[list[Line2D], Line2D]:
-    """Three strips: how each inter-neuron's rate went."""
+def draw_neurons(axes: Axes, count: int) -> tuple[list[Line2D], Line2D]:
+    """How each inter-neuron's rate went; beyond eight, colours come again with dashes."""
     top = NEURONS_TOP
-    rule(axes, top, "3 inter-neurons")
+    rule(axes, top, f"{count} inter-neuron{'s' * (count != 1)}")
     traces = []
     axes.add_patch(Rectangle((LEFT, top + 20), RIGHT - LEFT, 124, fc="white", ec=UNLIT, lw=0.8))
-    for colour in NEURONS:
-        (line,) = axes.plot([], [], color=colour, lw=1.7, solid_capstyle="round")
+    for neuron in range(count):
+        colour, style = NEURONS[neuron % len(NEURONS)], "-" if neuron < len(NEURONS) else "--"
+        (line,) = axes.plot([], [], color=colour, ls=style, lw=1.7, solid_capstyle="round")
         traces.append(line)
     cursor = axes.axvline(LEFT, color=QUIET, lw=0.7)
     cursor.set_ydata([1 - (top + 144) / HEIGHT, 1 - (top + 20) / HEIGHT])

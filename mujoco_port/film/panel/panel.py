@@ -52,7 +52,7 @@ class MindPanel:
         write(axes, WIDTH / 2, HEIGHT - 14, title, size=7, color=QUIET, ha="center")
         self._chips = draw_words(axes, instruction, self._task)
         self._lamps, self._bend = draw_senses(axes)
-        self._traces, self._cursor = draw_neurons(axes)
+        self._traces, self._cursor = draw_neurons(axes, mind.rates.shape[1])
         self._bars = draw_motors(axes)
         ring = draw_ring(axes, instruction)
         self._ring, self._share, self._clock, self._score, self._outcome = ring

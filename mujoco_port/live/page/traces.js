@@ -1,10 +1,12 @@
-// How the three inter-neurons' rates went, on a small canvas, with the words that were heard meanwhile.
+// How the inter-neurons' rates went, on a small canvas, with the words that were heard meanwhile.
 
 const STEP_S = 0.1;
 const LEAST_S = 25;
+// Of the first three neurons' curves, of the next three, and so on.
+const DASHES = [[], [6, 3], [2, 3], [9, 3, 2, 3], [1, 5], [12, 5]];
 const EDGE = { left: 8, right: 8, top: 19, bottom: 17 };
 
-/** Draw rates [K][3] and changes [[step, words], ...] in the page's own colours. */
+/** Draw rates [K][N] and changes [[step, words], ...] in the page's own colours. */
 export function drawTraces(canvas, rates, changes) {
   const width = canvas.clientWidth;
   const height = canvas.clientHeight;
@@ -23,7 +25,12 @@ export function drawTraces(canvas, rates, changes) {
   grid(pen, colour, whole, across, up, height, width);
   marks(pen, colour, changes, across, up, width);
   const hues = [colour("--ink"), colour("--accent"), colour("--glow")];
-  hues.forEach((hue, neuron) => curve(pen, hue, rates, neuron, across, up));
+  const count = rates.length ? rates[0].length : 0;
+  for (let neuron = 0; neuron < count; neuron += 1) {
+    pen.setLineDash(DASHES[Math.floor(neuron / hues.length) % DASHES.length]);
+    curve(pen, hues[neuron % hues.length], rates, neuron, across, up);
+  }
+  pen.setLineDash([]);
 }
 
 /** Lines at rates 0 and 1, and seconds below. */
