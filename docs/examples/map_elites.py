@@ -22,7 +22,7 @@ class MapElites:
 
     def __init__(self, config, generation=0, state=None):
         self.config, self.generation = config, generation
-        n_genotypes, n_genes = config.settings.population, 84
+        n_genotypes, n_genes = config.settings.population, config.settings.n_genes
         self.archive = GridArchive(solution_dim=n_genes, dims=CELLS, ranges=[(0, 1), (0, 1)])
         if state is None:
             draws = generator(config.seed, Purpose.INITIAL_GENOTYPES)

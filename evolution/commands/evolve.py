@@ -10,6 +10,8 @@ from typing import Annotated, Self
 from tyro.conf import arg
 
 from arm2d import Readings
+from arm2d.constants import N_INTER
+from arm2d.genes import counted
 from arm2d.tasks.task import AnyTask, read_task
 from evolution.answers import INTERRUPTED
 from evolution.search.config import RunConfig
@@ -113,7 +115,7 @@ class Evolve(FromPreset):
         total = config.settings.generations
         with StopRequest() as stop, shown_progress(console, total) as show:
             watcher = Watcher(
-                on_start=lambda generation: _announce(path, generation),
+                on_start=lambda generation: _announce(path, config, generation),
                 on_generation=show,
                 on_note=lambda note: print(note, file=sys.stderr),
                 wants_stop=lambda: stop.requested,
@@ -126,7 +128,7 @@ class Evolve(FromPreset):
         return 0
 
 
-def _announce(path: Path, generation: int) -> None:
+def _announce(path: Path, config: RunConfig, generation: int) -> None:
     """Say where the run starts, and what the user is waiting for if that will take a while."""
     from arm2d.cache import cache_folder
 
@@ -134,6 +136,9 @@ def _announce(path: Path, generation: int) -> None:
     compiled = cache_folder()
     if compiled is None or not any(Path(compiled).iterdir()):
         print("the arm is being compiled first, once on this machine; that takes some seconds", flush=True)
+    elif generation == 0 and config.settings.inter_neurons != N_INTER:
+        size = counted(config.settings.inter_neurons)
+        print(f"networks of {size} are compiled when this machine first meets them; that takes some seconds")
 
 
 def default_folder(experiment: str, config: RunConfig) -> Path:
