@@ -46,7 +46,7 @@ def departures_in_size(results: Results) -> list[str]:
             if name in paper and value != paper[name]
         ]
         if own.inter_neurons != N_INTER:
-            sentences.append(f"networks of {counted(own.inter_neurons)}, not {N_INTER}")
+            sentences.append(f"networks of {counted(own.inter_neurons)}, not three")
         if own.algorithm != GENETIC:
             sentences.append(f"searched for by {own.algorithm}, not by the paper's genetic algorithm")
     for condition, found in results.conditions.items():
