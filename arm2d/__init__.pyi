@@ -1,9 +1,5 @@
 from . import constants as constants
 from . import reference as reference
-from .controller import Networks as Networks
-from .controller import check_genotypes as check_genotypes
-from .controller import decode as decode
-from .controller import encode as encode
 from .drawing import OBJECT_COLOURS as OBJECT_COLOURS
 from .drawing import Scene as Scene
 from .drawing import draw_state as draw_state
@@ -12,6 +8,10 @@ from .instructions import ActionWord as ActionWord
 from .instructions import Condition as Condition
 from .instructions import Instruction as Instruction
 from .instructions import ObjectWord as ObjectWord
+from .network.controller import Networks as Networks
+from .network.controller import check_genotypes as check_genotypes
+from .network.controller import decode as decode
+from .network.controller import encode as encode
 from .readings import Readings as Readings
 from .running import record_trial as record_trial
 from .running import run_trials as run_trials

@@ -37,7 +37,7 @@ THRESHOLD_TOLERANCE: Final = 1e-9  # [deg], a sum this near a threshold has reac
 COLLISION_FACTOR: Final = 0.6  # P1 after touching an object that is not the target
 
 # The controller (section IV). The paper's has three inter-neurons, and 84 genes; a network may have others
-# (arm2d/genes.py).
+# (arm2d/network/genes.py).
 N_INPUTS: Final = 18
 N_INTER: Final = 3
 N_MOTORS: Final = 4

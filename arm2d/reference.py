@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike
 
 from arm2d import constants as c
 from arm2d.arithmetic import sigmoid
-from arm2d.controller import decode
 from arm2d.geometry import (
     Point,
     bearing_of,
@@ -28,6 +27,7 @@ from arm2d.geometry import (
     to_s2,
 )
 from arm2d.instructions import ActionWord, Instruction
+from arm2d.network.controller import decode
 from arm2d.readings import Readings
 from arm2d.tasks.hearing import bits_heard
 from arm2d.tasks.task import Task

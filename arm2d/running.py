@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d import constants as c
 from arm2d.arithmetic import bearing
 from arm2d.compiling import compiled
-from arm2d.controller import check_genotypes, decode_flat, n_inter_of
 from arm2d.kernel import exchange
 from arm2d.kernel.loop import run_population
 from arm2d.kernel.network import Inter
 from arm2d.kernel.world import WORD_CODES, tables_of, world_of
+from arm2d.network.controller import check_genotypes, decode_flat, n_inter_of
 from arm2d.readings import Readings
 from arm2d.tasks.hearing import phase_after, phases, word_bits
 from arm2d.trials import TrialRecord, Trials, TrialScores

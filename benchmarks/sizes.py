@@ -20,7 +20,7 @@ from rich.table import Table
 
 from arm2d import Condition, Readings, draw_trials, run_trials
 from arm2d.constants import N_INTER
-from arm2d.genes import genes_of
+from arm2d.network.genes import genes_of
 from benchmarks.kernel import bind_to_one_core
 from evolution.search.algorithm import initial_genotypes
 from evolution.search.settings import Settings

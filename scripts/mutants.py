@@ -55,7 +55,7 @@ TESTS: Final[dict[str, tuple[str, ...]]] = {
         "tests/arm2d/test_records.py",
         "tests/arm2d/test_kernel.py",
     ),
-    "arm2d/controller.py": ("tests/arm2d/test_controller.py", "tests/arm2d/test_kernel.py"),
+    "arm2d/network/controller.py": ("tests/arm2d/network/test_controller.py", "tests/arm2d/test_kernel.py"),
     "arm2d/readings.py": ("tests/arm2d/test_readings.py", "tests/arm2d/test_trials.py"),
     "arm2d/instructions.py": ("tests/arm2d/test_instructions.py",),
     "arm2d/worlds/*.py": ("tests/arm2d/worlds",),

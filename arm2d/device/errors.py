@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from arm2d.constants import N_INTER
-from arm2d.genes import counted
+from arm2d.network.genes import counted
 
 
 class DeviceMemoryError(ValueError):

@@ -15,7 +15,6 @@ import warp as wp
 from numpy.typing import NDArray
 
 from arm2d.constants import MAX_STEPS, N_INTER
-from arm2d.controller import check_genotypes, decode_flat, n_inter_of
 from arm2d.device import loop
 from arm2d.device.drives import BEND_ROW
 from arm2d.device.errors import DeviceLostError, DeviceMemoryError, DeviceSizeError, DeviceTaskError
@@ -24,6 +23,7 @@ from arm2d.device.opening import Device
 from arm2d.device.world import worlds_on
 from arm2d.kernel.exchange import TrialArrays
 from arm2d.kernel.world import WORD_CODES
+from arm2d.network.controller import check_genotypes, decode_flat, n_inter_of
 from arm2d.readings import Readings
 from arm2d.running import arrays_of, own_trials_of_each
 from arm2d.trials import Trials, TrialScores

@@ -11,7 +11,7 @@ from tyro.conf import arg
 
 from arm2d import Readings
 from arm2d.constants import N_INTER
-from arm2d.genes import counted
+from arm2d.network.genes import counted
 from arm2d.tasks.task import AnyTask, read_task
 from evolution.answers import INTERRUPTED
 from evolution.search.config import RunConfig

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from arm2d import ObjectWord
 from arm2d.drawing import FULL, INK, OBJECT_COLOURS, STYLE, look
-from arm2d.genes import counted
+from arm2d.network.genes import counted
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.variance import VarianceShares, bin_times, events_of, mean_by_instruction
 from evolution.figures.page import FAINT, SHARE_COLOURS, head

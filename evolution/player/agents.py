@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import N_GENES
-from arm2d.genes import SIZES, counted
+from arm2d.network.genes import SIZES, counted
 from arm2d.tasks.task import papers_condition
 from evolution.runs.sources import Agent
 from evolution.search.evaluation import evaluate

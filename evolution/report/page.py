@@ -14,7 +14,7 @@ from typing import Any, Final
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from arm2d.genes import counted
+from arm2d.network.genes import counted
 from evolution.agents.classes import Sampling
 from evolution.agents.postevaluation import TRIALS
 from evolution.agents.subtasks import SUBTASKS, AgentClass

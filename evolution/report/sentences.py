@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from arm2d import Condition
 from arm2d.constants import N_INTER
-from arm2d.genes import counted
+from arm2d.network.genes import counted
 from evolution.agents.subtasks import AgentClass
 from evolution.report.tables import runs_with_generalisers
 from evolution.results import published

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, fields
 from typing import Any, Final
 
 from arm2d.constants import MOST_INTER, N_INTER
-from arm2d.genes import genes_of
+from arm2d.network.genes import genes_of
 
 # How many of each generation's genotypes are kept. The paper's post-evaluation takes five.
 N_BEST: Final = 5

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import ActionWord, ObjectWord, Readings, Task, TrialRecord
 from arm2d import constants as c
-from arm2d.controller import decode
 from arm2d.drawing import state_at
+from arm2d.network.controller import decode
 from arm2d.records import brief
 from arm2d.tasks.hearing import words_of
 from arm2d.worlds.progress import progress_of

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, Readings
-from arm2d.genes import genes_of
+from arm2d.network.genes import genes_of
 from evolution.agents.behaviour import record_behaviour
 from evolution.figures.neurons import activity_figure
 from evolution.figures.states import outline, principal_plane, state_space_figure

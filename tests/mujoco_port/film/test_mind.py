@@ -7,7 +7,7 @@ import pytest
 
 from arm2d import ActionWord, Condition, Instruction, LabelChanges, ObjectWord, Readings, Task, draw_trials
 from arm2d import record_trial as record_one
-from arm2d.controller import decode
+from arm2d.network.controller import decode
 from mujoco_port.film.panel import MindPanel
 from mujoco_port.film.take import mind_of, task_heard
 

@@ -1,4 +1,4 @@
-// The agent's 25 neurons: 84 genes become weights, and the weights think, as arm2d/controller.py and
+// The agent's 25 neurons: 84 genes become weights, and the weights think, as arm2d/network/controller.py and
 // arm2d/kernel/controller.py have it. Sums run in the same order: a recurrent network would blow up a
 // difference in the last bit.
 

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d.arithmetic import exp
 from arm2d.compiling import compiled
 from arm2d.constants import MOST_INTER, N_INPUTS, N_INTER, N_MOTORS
-from arm2d.genes import SIZES, Genes, counted, genes_of, told
+from arm2d.network.genes import SIZES, Genes, counted, genes_of, told
 from arm2d.readings import Readings
 
 # What a gene of 0 and of 1 stands for.

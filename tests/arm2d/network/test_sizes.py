@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, Readings, check_genotypes, decode, draw_trials, encode, record_trial, run_trials
-from arm2d.genes import SIZES, genes_of
+from arm2d.network.genes import SIZES, genes_of
 from arm2d.reference import run_trial
 from arm2d.tasks.task import Task
 from evolution.search.algorithm import breed, choose_parents, initial_genotypes, mean_in_order

@@ -1,0 +1,1 @@
+"""The network as parameters: which genes stand for which, in networks of any size, and their values."""
