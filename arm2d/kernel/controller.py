@@ -37,7 +37,7 @@ from arm2d.kernel.lanes import (
     Y,
     Z,
 )
-from arm2d.kernel.network import Inter, of_neuron, places_of, row_of
+from arm2d.kernel.network import Inter, Places, of_neuron, places_of, row_of, unsigned
 from arm2d.kernel.world import beta_key
 
 # Places of the inputs in spec section 4, from 0.
@@ -78,7 +78,8 @@ def tabulate_drives(network: Floats, betas: Floats, codes: Integers, drives: Dri
         drives: `Drives` of this network.
         inter: As many zeros as it has inter-neurons.
     """
-    count, at = len(inter), places_of(inter)
+    count = len(inter)
+    at: Places = places_of(inter)
     bias, gain = network[at.input_bias], network[at.gain]
     off, on = sigmoid(bias), sigmoid(gain + bias)
     weights = network[: N_INPUTS * count].reshape(N_INPUTS, count)
@@ -166,10 +167,10 @@ def gather_drives(
 
     Rows of the tables are read and added as vectors.
     """
-    for i in range(np.uint64(lanes)):
-        t, code = np.uint64(n[np.uint64(TOUCH) + i]), np.uint64(n[np.uint64(CAMERA) + i])
-        b, row = beta_key(s[np.uint64(BETA) + i]), row_of(inter) * i
-        for j in range(np.uint64(len(inter))):
+    for i in range(unsigned(lanes)):
+        t, code = unsigned(n[unsigned(TOUCH) + i]), unsigned(n[unsigned(CAMERA) + i])
+        b, row = beta_key(s[unsigned(BETA) + i]), row_of(inter) * i
+        for j in range(unsigned(len(inter))):
             s[of_neuron(DRIVE, j) + i] = d[row + j] + touch[t, j] + camera[code, j] + bend[b, j]
 
 
@@ -185,36 +186,40 @@ def think(s: Floats, lanes: int, network: Floats, inter: Inter) -> None:
 @compiled(allocates=False)
 def _think_at_once(s: Floats, lanes: int, network: Floats, inter: Inter) -> None:
     """Lane after lane, so that the compiler keeps all weights at hand."""
-    count, at = np.uint64(len(inter)), places_of(inter)
-    for i in range(np.uint64(lanes)):
+    count = unsigned(len(inter))
+    at: Places = places_of(inter)
+    for i in range(unsigned(lanes)):
         for j in range(count):
-            total = network[at.recurrent + j] * s[np.uint64(Z) + i]
-            for k in range(np.uint64(1), count):
+            total = network[at.recurrent + j] * s[unsigned(Z) + i]
+            for k in range(unsigned(1), count):
                 total += network[at.recurrent + count * k + j] * s[of_neuron(Z, k) + i]
             y = s[of_neuron(Y, j) + i]
             s[of_neuron(Y, j) + i] = y + DT / network[at.tau + j] * (s[of_neuron(DRIVE, j) + i] + total - y)
         for j in range(count):
-            s[of_neuron(Z, j) + i] = sigmoid(s[of_neuron(Y, j) + i] + network[at.inter_bias + j])
+            state: int = of_neuron(Y, j)
+            s[of_neuron(Z, j) + i] = sigmoid(s[state + i] + network[at.inter_bias + j])
 
 
 @compiled(allocates=False)
 def _think_in_turn(s: Floats, lanes: int, network: Floats, inter: Inter) -> None:
     """The same neuron after neuron, for so many that a lane's loop would no longer become vectors."""
-    count, at = np.uint64(len(inter)), places_of(inter)
+    count = unsigned(len(inter))
+    at: Places = places_of(inter)
     for j in range(count):
         rate = DT / network[at.tau + j]
-        for i in range(np.uint64(lanes)):
-            total = network[at.recurrent + j] * s[np.uint64(Z) + i]
-            for k in range(np.uint64(1), count):
+        for i in range(unsigned(lanes)):
+            total = network[at.recurrent + j] * s[unsigned(Z) + i]
+            for k in range(unsigned(1), count):
                 total += network[at.recurrent + count * k + j] * s[of_neuron(Z, k) + i]
-            s[np.uint64(SUM) + i] = total
-        for i in range(np.uint64(lanes)):
+            s[unsigned(SUM) + i] = total
+        for i in range(unsigned(lanes)):
             y = s[of_neuron(Y, j) + i]
-            s[of_neuron(Y, j) + i] = y + rate * (s[of_neuron(DRIVE, j) + i] + s[np.uint64(SUM) + i] - y)
+            s[of_neuron(Y, j) + i] = y + rate * (s[of_neuron(DRIVE, j) + i] + s[unsigned(SUM) + i] - y)
     for j in range(count):
         bias = network[at.inter_bias + j]
-        for i in range(np.uint64(lanes)):
-            s[of_neuron(Z, j) + i] = sigmoid(s[of_neuron(Y, j) + i] + bias)
+        state: int = of_neuron(Y, j)
+        for i in range(unsigned(lanes)):
+            s[of_neuron(Z, j) + i] = sigmoid(s[state + i] + bias)
 
 
 @compiled(allocates=False)
@@ -226,28 +231,28 @@ def turn(s: Floats, n: Integers, lanes: int, network: Floats, turn_size: float, 
     Returns:
         In how many lanes S2 may meet a disc on its way; they are marked in NEAR.
     """
-    at = places_of(inter)
+    at: Places = places_of(inter)
     motor, bias = at.motor, network[at.motor_bias]
     near = 0
-    for i in range(np.uint64(lanes)):
-        z = s[np.uint64(Z) + i]
-        go1, way1 = network[motor] * z, network[motor + np.uint64(1)] * z
-        go2, way2 = network[motor + np.uint64(2)] * z, network[motor + np.uint64(3)] * z
-        for j in range(np.uint64(1), np.uint64(len(inter))):
-            z, of_j = s[of_neuron(Z, j) + i], motor + np.uint64(N_MOTORS) * j
+    for i in range(unsigned(lanes)):
+        z = s[unsigned(Z) + i]
+        go1, way1 = network[motor] * z, network[motor + unsigned(1)] * z
+        go2, way2 = network[motor + unsigned(2)] * z, network[motor + unsigned(3)] * z
+        for j in range(unsigned(1), unsigned(len(inter))):
+            z, of_j = s[of_neuron(Z, j) + i], motor + unsigned(N_MOTORS) * j
             go1 += network[of_j] * z
-            way1 += network[of_j + np.uint64(1)] * z
-            go2 += network[of_j + np.uint64(2)] * z
-            way2 += network[of_j + np.uint64(3)] * z
-        alpha, beta = s[np.uint64(ALPHA) + i], s[np.uint64(BETA) + i]
+            way1 += network[of_j + unsigned(1)] * z
+            go2 += network[of_j + unsigned(2)] * z
+            way2 += network[of_j + unsigned(3)] * z
+        alpha, beta = s[unsigned(ALPHA) + i], s[unsigned(BETA) + i]
         new_alpha = _turned(alpha, go1 + bias, way1 + bias, turn_size, ALPHA_MIN, ALPHA_MAX)
         new_beta = _turned(beta, go2 + bias, way2 + bias, turn_size, BETA_MIN, BETA_MAX)
         turned, bent = new_alpha - alpha, new_beta - beta
-        s[np.uint64(ALPHA) + i], s[np.uint64(TURN) + i] = new_alpha, turned
-        s[np.uint64(BETA) + i], s[np.uint64(BEND) + i] = new_beta, bent
-        moved = (turned != 0.0) | (bent != 0.0) | (n[np.uint64(STEP) + i] == 0)
-        may_meet = 1 if (beta < s[np.uint64(LIMIT) + i]) & moved else 0
-        n[np.uint64(NEAR) + i] = may_meet
+        s[unsigned(ALPHA) + i], s[unsigned(TURN) + i] = new_alpha, turned
+        s[unsigned(BETA) + i], s[unsigned(BEND) + i] = new_beta, bent
+        moved = (turned != 0.0) | (bent != 0.0) | (n[unsigned(STEP) + i] == 0)
+        may_meet = 1 if (beta < s[unsigned(LIMIT) + i]) & moved else 0
+        n[unsigned(NEAR) + i] = may_meet
         near += may_meet
     return near
 

@@ -30,7 +30,7 @@ from arm2d.kernel.lanes import (
     Integers,
 )
 from arm2d.kernel.lifetime import finish_lane, start_lane
-from arm2d.kernel.network import Inter, of_neuron, places_of, row_of
+from arm2d.kernel.network import Inter, of_neuron, places_of, row_of, unsigned
 from arm2d.kernel.scores import remember_stretch, score_step, target_in_view
 from arm2d.kernel.world import N_BETA_KEYS, World, WorldTables
 
@@ -155,10 +155,10 @@ def _start(
     lanes: Lanes, i: int, trial: int, network: Floats, trials: TrialArrays, world: World, words: Floats
 ) -> None:
     """Put lane i at the start of a trial."""
-    biases = places_of(lanes.inter).inter_bias
-    for j in range(np.uint64(len(lanes.inter))):
-        lanes.s[of_neuron(at.Y, j) + np.uint64(i)] = 0.0
-        lanes.s[of_neuron(at.Z, j) + np.uint64(i)] = sigmoid(0.0 + network[biases + j])
+    biases: int = places_of(lanes.inter).inter_bias
+    for j in range(unsigned(len(lanes.inter))):
+        lanes.s[of_neuron(at.Y, j) + unsigned(i)] = 0.0
+        lanes.s[of_neuron(at.Z, j) + unsigned(i)] = sigmoid(0.0 + network[biases + j])
     start_lane(lanes.s, lanes.n, i, trial, trials, world)
     _hear(lanes, i, trials.heard[trial, 0], words)
 

@@ -2,8 +2,8 @@
 
 A tuple's length is part of its type. `Inter` is a tuple as long as the network has inter-neurons; where its
 length stands in a loop, Numba compiles the kernel for each length, and LLVM unrolls the loop. Lengths and
-places are unsigned: of a place that could be negative Numba would ask whether it counts from an array's end,
-which keeps LLVM from vectors.
+places are `unsigned`: of a place that could be negative Numba would ask whether it counts from an array's
+end, which keeps LLVM from vectors.
 """
 
 from typing import NamedTuple
@@ -18,16 +18,22 @@ from arm2d.kernel.lanes import NEURON
 Inter = tuple[float, ...]
 
 
+@compiled(allocates=False)
+def unsigned(number: int) -> int:
+    """A number that cannot be negative, as one that is known not to be."""
+    return np.uint64(number)  # type: ignore[return-value] - a whole number for whoever reads
+
+
 class Places(NamedTuple):
     """Where the parameters of a network stand: the first place of each kind, in the order of the genes."""
 
-    recurrent: np.uint64
-    motor: np.uint64
-    tau: np.uint64
-    input_bias: np.uint64
-    inter_bias: np.uint64
-    motor_bias: np.uint64
-    gain: np.uint64
+    recurrent: int
+    motor: int
+    tau: int
+    input_bias: int
+    inter_bias: int
+    motor_bias: int
+    gain: int
 
 
 @compiled(allocates=False)
@@ -39,23 +45,23 @@ def places_of(inter: Inter) -> Places:
     tau = motor + N_MOTORS * n
     input_bias = tau + n
     return Places(
-        np.uint64(recurrent),
-        np.uint64(motor),
-        np.uint64(tau),
-        np.uint64(input_bias),
-        np.uint64(input_bias + 1),
-        np.uint64(input_bias + 1 + n),
-        np.uint64(input_bias + 2 + n),
+        unsigned(recurrent),
+        unsigned(motor),
+        unsigned(tau),
+        unsigned(input_bias),
+        unsigned(input_bias + 1),
+        unsigned(input_bias + 1 + n),
+        unsigned(input_bias + 2 + n),
     )
 
 
 @compiled(allocates=False)
-def row_of(inter: Inter) -> np.uint64:
+def row_of(inter: Inter) -> int:
     """Length of a row of drives: one for each inter-neuron, then zeros up to a multiple of four."""
-    return np.uint64((len(inter) + 3) // 4 * 4)
+    return unsigned((len(inter) + 3) // 4 * 4)
 
 
 @compiled(allocates=False)
-def of_neuron(field: int, j: np.uint64) -> np.uint64:
+def of_neuron(field: int, j: int) -> int:
     """Where a field of inter-neuron j begins."""
-    return np.uint64(field) + np.uint64(NEURON) * j
+    return unsigned(field) + unsigned(NEURON) * j
