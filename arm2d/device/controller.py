@@ -7,13 +7,12 @@ from arm2d.device.arithmetic import sigmoid
 from arm2d.device.drives import BEND_ROW, CAMERA_ROW, WORD_ROW, three
 from arm2d.device.lanes import Lane
 from arm2d.device.world import Tables, World, key_of_beta
-from arm2d.kernel import controller as plain
 
-RECURRENT = wp.int32(plain.RECURRENT)
-MOTOR = wp.int32(plain.MOTOR)
-TAU = wp.int32(plain.TAU)
-INTER_BIAS = wp.int32(plain.INTER_BIAS)
-MOTOR_BIAS = wp.int32(plain.MOTOR_BIAS)
+RECURRENT = wp.int32(c.GENES.recurrent.start)
+MOTOR = wp.int32(c.GENES.motor.start)
+TAU = wp.int32(c.GENES.tau.start)
+INTER_BIAS = wp.int32(c.GENES.inter_bias.start)
+MOTOR_BIAS = wp.int32(c.GENES.motor_bias)
 
 
 @wp.struct

@@ -6,6 +6,10 @@ import warp as wp
 
 from arm2d import constants as c
 from arm2d.kernel import lanes, scores
+from arm2d.network.genes import genes_of
+
+# Where the parameters of the paper's network stand, the only one that a device runs.
+GENES = genes_of(c.N_INTER)
 
 ALPHA_MIN = wp.float64(c.ALPHA_MIN)
 ALPHA_MAX = wp.float64(c.ALPHA_MAX)
