@@ -91,7 +91,7 @@ class Agree:
     """Which humanoid; an unknown name lists those there are."""
 
     head: Literal["turns", "held"] = "turns"
-    """turns: neck and eyes follow S1. held: they are still, as in results of before."""
+    """turns: neck and eyes follow S1. held: they keep still."""
 
     processes: int | None = None
     """How many trials at once; by default one for each core."""

@@ -20,6 +20,7 @@ WANTED = {
     "instruction",
     "object",
     "sense",
+    "size",
     "robot",
     "figure",
     "task",
