@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import Final
+from typing import Final, TextIO
 
 from scripts.faults import Fault
 
@@ -23,6 +23,17 @@ LIMIT: Final = 900.0  # [s] in which some test has to end, on the busiest of mac
 CPU_LIMIT: Final = 60.0  # [s] of processor time for the same
 LOOK: Final = 1.0  # [s] from one look to the next
 OPTIONS: Final = ("-x", "-p", "no:cacheprovider", "--tb=no")
+# Where compiled code is kept, as the program itself has it; a warning says what is unusual.
+ASK_FOLDER: Final = "from arm2d.cache import cache_folder; print(cache_folder() or '')"
+# No function of another module has anything of these compiled into it.
+NOT_COMPILED: Final = (
+    "arm2d/controller.py",
+    "arm2d/geometry.py",
+    "arm2d/readings.py",
+    "arm2d/reference.py",
+    "arm2d/trials.py",
+    "arm2d/worlds/*.py",
+)
 # Exit codes of pytest: all tests passed, or there were none of the kind that was asked for.
 PASSED: Final = (0, 5)
 
@@ -92,6 +103,7 @@ class Copy:
         for name in ("home", "temporary"):
             (place / name).mkdir(mode=0o700)
         self._tried = 0
+        self._compiled = self._cache_folder()
 
     def attempt(self, mutant: Mutant) -> tuple[str, float, str]:
         """Outcome, duration [s], and the test that failed, of its tests with a fault in the sources."""
@@ -102,10 +114,26 @@ class Copy:
         self._tried += 1
         os.utime(path, (stamp.st_atime, stamp.st_mtime + 10 * self._tried))
         try:
+            if any(Path(mutant.row.path).match(pattern) for pattern in NOT_COMPILED):
+                self._take_over_what_was_compiled()
             return self._run_in_turn(mutant.tests)
         finally:
             path.write_bytes(sound)
             os.utime(path, (stamp.st_atime, stamp.st_mtime))
+
+    def _take_over_what_was_compiled(self) -> None:
+        """Spare the compiling of functions that a fault does not reach; any change in arm2d asks for it."""
+        folder = self._cache_folder()
+        if self._compiled and folder:
+            shutil.copytree(self._compiled, folder, dirs_exist_ok=True)
+
+    def _cache_folder(self) -> str:
+        """Where compiled code is kept of the tree as it is; nothing if nowhere."""
+        command = [sys.executable, "-c", ASK_FOLDER]
+        asked = subprocess.run(  # noqa: S603 - our own words
+            command, cwd=self._tree, env=self._environment, capture_output=True, text=True, check=False
+        )
+        return asked.stdout.strip()
 
     def _run_in_turn(self, tests: Sequence[str]) -> tuple[str, float, str]:
         """The same, of the first test by itself, then of all quick ones, then of the slow."""
@@ -175,10 +203,14 @@ class Attempts:
     Args:
         output: The file of rows.
         copies: Where they are tried.
+        again: Whether to try once more what survived; tests may have come since.
     """
 
-    def __init__(self, output: Path, copies: list[Copy]) -> None:
+    def __init__(self, output: Path, copies: list[Copy], *, again: bool = False) -> None:
         self.rows = read_rows(output)
+        if again:
+            self.rows = {what: row for what, row in self.rows.items() if row.outcome != "survived"}
+            write_rows(output, list(self.rows.values()))
         self._output = output
         self._free: queue.SimpleQueue[Copy] = queue.SimpleQueue()
         for each in copies:
@@ -203,12 +235,10 @@ class Attempts:
 
     def _keep(self, row: Row, outcome: str, seconds: float, seen_by: str) -> None:
         done = Row(**{**asdict(row), "outcome": outcome, "seconds": f"{seconds:.1f}", "seen_by": seen_by})
-        begun = self._output.exists()
+        if not self._output.exists():
+            write_rows(self._output, [])
         with self._output.open("a", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, [each.name for each in fields(Row)])
-            if not begun:
-                writer.writeheader()
-            writer.writerow(asdict(done))
+            _writer(file).writerow(asdict(done))
         self.rows[done.what] = done
         print(f"{outcome:9}{seconds:6.0f} s  {row.path}:{row.line}  {row.kind}", flush=True)
 
@@ -241,6 +271,18 @@ def read_rows(output: Path) -> dict[tuple[str, ...], Row]:
     with output.open(encoding="utf-8", newline="") as file:
         rows = [Row(**{**row, "line": int(row["line"])}) for row in csv.DictReader(file)]
     return {row.what: row for row in rows}
+
+
+def write_rows(output: Path, rows: list[Row]) -> None:
+    """A file of rows, whatever was there before."""
+    with output.open("w", encoding="utf-8", newline="") as file:
+        writer = _writer(file)
+        writer.writeheader()
+        writer.writerows(map(asdict, rows))
+
+
+def _writer(file: TextIO) -> csv.DictWriter:
+    return csv.DictWriter(file, [each.name for each in fields(Row)], lineterminator="\n")
 
 
 def name_of(line: str) -> str:
