@@ -126,6 +126,7 @@ def controller(genotype: ArrayLike, readings: Readings) -> Callable[[Sequence[fl
     input_bias, motor_bias, gain = float(net.input_bias[0]), float(net.motor_bias[0]), float(net.gain[0])
     inter = range(len(tau))
     y = [0.0] * len(tau)
+    z = [sigmoid(y[k] + bias[k]) for k in inter]
 
     @cache  # most inputs are 0 or 1
     def sensory_neuron(value: float) -> float:
@@ -140,10 +141,9 @@ def controller(genotype: ArrayLike, readings: Readings) -> Callable[[Sequence[fl
 
     def think(inputs: Sequence[float]) -> tuple[float, float]:
         felt = tuple(inputs)
-        z = [sigmoid(y[k] + bias[k]) for k in inter]
         for j in inter:
             y[j] += c.DT / tau[j] * (drive(felt, j) + _dot(recurrent, z, j, inter) - y[j])  # eq. 2
-        z = [sigmoid(y[k] + bias[k]) for k in inter]
+        z[:] = [sigmoid(y[k] + bias[k]) for k in inter]
         f = [sigmoid(_dot(motor, z, m, inter) + motor_bias) for m in range(c.N_MOTORS)]  # eq. 3
         return _turn(f[0], f[1], readings.turn_size), _turn(f[2], f[3], readings.turn_size)
 
@@ -227,13 +227,14 @@ def touch(
         last, part = pose, k / c.SUB_STEPS
         pose = s2_pose(alpha0 + (alpha1 - alpha0) * part, beta0 + (beta1 - beta0) * part)
         for disc, centre in enumerate(discs):
-            (u0, v0), (u, v) = to_s2(last, centre), to_s2(pose, centre)
+            u, v = to_s2(pose, centre)
             beyond = max(0.0, u - c.S2_LENGTH, -u)
             gap = hypot(beyond, v)
             hit = gap < radius - c.PENETRATION_TOLERANCE
             if hit and sides[disc]:
-                discs[disc] = from_s2(pose, u0, v0)
+                discs[disc] = from_s2(pose, *to_s2(last, centre))
             elif hit:
+                _, v0 = to_s2(last, centre)
                 sides[disc] = RIGHT if v0 < 0.0 else LEFT
                 v = sqrt(radius * radius - beyond * beyond)
                 discs[disc] = from_s2(pose, u, -v if v0 < 0.0 else v)

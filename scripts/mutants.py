@@ -20,11 +20,13 @@ import hashlib
 import os
 import resource
 import tempfile
-from collections import Counter
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from itertools import groupby
 from pathlib import Path
 from typing import Final
 
+from scripts.equivalents import Key, key_of, reasons
 from scripts.faults import faults_in
 from scripts.trying_faults import ROOT, Attempts, Copy, Mutant, Row, row_of
 
@@ -122,21 +124,29 @@ def witnesses_of(path: str) -> tuple[str, ...]:
     return (own, *(test for test in tests if test != own)) if (ROOT / own).exists() else tests
 
 
-def summary(rows: list[Row]) -> str:
-    """How many were noticed, room by room, and what survived."""
-    lines = []
-    rooms = sorted({str(Path(row.path).parent) for row in rows})
-    for room in rooms:
-        found = Counter(row.outcome for row in rows if str(Path(row.path).parent) == room)
-        lines.append(f"{room}: {found.total() - found['survived']} of {found.total()} noticed")
-    for row in rows:
-        if row.outcome == "survived":
-            change = difflib.ndiff(row.before.splitlines(), row.after.splitlines())
-            shown = [line for line in change if line[0] in "-+"]
-            lines += ["", f"{row.path}:{row.line}: {row.kind}, survived", *shown]
-    survived = sum(row.outcome == "survived" for row in rows)
-    lines += ["", f"{len(rows) - survived} of {len(rows)} noticed"]
-    return "\n".join(lines)
+def summary(rows: list[Row], equivalent: Mapping[Key, str]) -> str:
+    """How many were noticed, room by room, what survived, and what of it cannot be noticed."""
+    survivors = [row for row in rows if row.outcome == "survived"]
+    unnoticeable = [row for row in survivors if key_of(row) in equivalent]
+    counted = [row for row in rows if row not in unnoticeable]
+    lines = [_noticed(list(room), name) for name, room in groupby(sorted(counted, key=_room), _room)]
+    for row in survivors:
+        lines += ["", f"{row.path}:{row.line}: {row.kind}, survived"]
+        if row in unnoticeable:
+            lines[-1] += f"; equivalent: {equivalent[key_of(row)]}"
+        change = difflib.ndiff(row.before.splitlines(), row.after.splitlines())
+        lines += [line for line in change if line[0] in "-+"]
+    also = f"; {len(unnoticeable)} more are equivalent" if unnoticeable else ""
+    return "\n".join([*lines, "", _noticed(counted) + also])
+
+
+def _noticed(rows: list[Row], room: str = "") -> str:
+    noticed = sum(row.outcome != "survived" for row in rows)
+    return f"{room}: {noticed} of {len(rows)} noticed".removeprefix(": ")
+
+
+def _room(row: Row) -> str:
+    return str(Path(row.path).parent)
 
 
 def main() -> None:
@@ -164,7 +174,7 @@ def main() -> None:
         list(at_work.map(attempts.with_fault, left))
         rows = [attempts.rows[each.row.what] for each in sample]
         attempts.without_fault(rows)
-    print(summary(rows))
+    print(summary(rows, reasons()))
 
 
 if __name__ == "__main__":

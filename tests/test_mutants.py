@@ -6,8 +6,9 @@ import subprocess
 import pytest
 
 from scripts import trying_faults
+from scripts.equivalents import key_of, reasons
 from scripts.faults import faults_in
-from scripts.mutants import all_mutants, summary
+from scripts.mutants import all_mutants, sample_of, summary
 from scripts.trying_faults import ROOT, Attempts, Copy, Mutant, name_of, row_of
 
 SOURCE = '''"""A number is 1 here."""
@@ -85,6 +86,22 @@ def test_tests_of_every_module_exist(found):
         assert (ROOT / test).exists(), test
 
 
+def test_a_sample_outlives_changes_of_the_sources(found):
+    """A larger one begins with it, and of what is still there nothing else takes its place."""
+    sample = sample_of(found, 1, 50)
+    assert sample_of(found, 1, 80)[:50] == sample
+    assert sample_of(found, 2, 50) != sample
+    left = [each for each in found if each is not sample[10]]
+    assert sample_of(left, 1, 49) == sample[:10] + sample[11:]
+
+
+def test_what_is_called_equivalent_is_still_a_fault(found):
+    keys = {key_of(each.row) for each in found}
+    for key, reason in reasons().items():
+        assert key in keys, f"{key[0]} holds no such line any more; remove it from equivalent.toml"
+        assert len(reason.split()) > 4
+
+
 @pytest.fixture
 def copy(tmp_path, git):
     """A copy whose only test is a tiny one."""
@@ -124,7 +141,7 @@ def test_what_is_tried_is_written_once_and_the_tree_is_left_alone(copy, tmp_path
     assert output.read_bytes() == written
     assert list(again.rows.values()) == rows
     assert subprocess.run(status, capture_output=True, check=True).stdout == before
-    said = summary(rows).splitlines()
+    said = summary(rows, {}).splitlines()
     assert said[0] == "arm2d: 1 of 2 noticed"
     assert said[2:5] == [
         f"arm2d/instructions.py:{survives.row.line}: number plus one, survived",
@@ -132,6 +149,14 @@ def test_what_is_tried_is_written_once_and_the_tree_is_left_alone(copy, tmp_path
         "+     IGNORE = 4",
     ]
     assert said[-1] == "1 of 2 noticed"
+    said = summary(rows, {key_of(rows[1]): "a word that nobody counts"}).splitlines()
+    assert said[0] == "arm2d: 1 of 1 noticed"
+    assert said[2].endswith("number plus one, survived; equivalent: a word that nobody counts")
+    assert said[-1] == "1 of 1 noticed; 1 more are equivalent"
+    once_more = Attempts(output, [copy], again=True)
+    assert [row.outcome for row in once_more.rows.values()] == ["noticed"]
+    once_more.with_fault(survives)
+    assert [row.outcome for row in Attempts(output, []).rows.values()] == ["noticed", "survived"]
 
 
 @pytest.mark.slow
