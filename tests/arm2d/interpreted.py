@@ -1,0 +1,59 @@
+"""Kernel and reference side by side in the plain interpreter; run by test_interpreted.py, which says why."""
+
+import numba
+import numpy as np
+import pytest
+
+from arm2d import Condition, LabelChanges, Readings, Trials, VectorWorld, draw_trials, record_trial
+from tests.arm2d.test_kernel import disagreements
+
+READINGS = [
+    {},
+    {"object_vision": "any_part", "object_radius": 10.0, "bound_vision": "near", "start_areas": "bounds"},
+    {"turn": "radians", "run_counting": "cumulative", "f3_time": "best", "success": "f1_f2_f3"},
+    {"ignore_stops": "never", "indicate_angle": "wide", "collision_penalty": "whole"},
+    {"camera_origin": "end"},
+    {"camera_origin": "end", "object_vision": "any_part", "object_radius": 11.8},
+]
+
+
+def with_changes(trials, rng):
+    """Trials in which both words change some steps after the target is first seen."""
+    n = len(trials)
+    changes = LabelChanges(
+        rng.integers(0, 3, n), trials.objects, trials.actions, rng.integers(0, 3, n), rng.integers(0, 10, n)
+    )
+    return Trials(trials.actions, trials.objects, trials.alpha, trials.discs, changes)
+
+
+def test_nothing_is_compiled_here():
+    assert numba.config.DISABLE_JIT
+
+
+@pytest.mark.parametrize("alternative", READINGS, ids=str)
+def test_kernel_and_reference_agree(alternative, evolved):
+    readings = Readings().with_values(alternative)
+    rng = np.random.default_rng([12, READINGS.index(alternative)])
+    for condition in Condition:
+        trials = draw_trials(condition.instructions, 1, readings, rng)
+        for each in (trials, with_changes(trials, rng)):
+            assert not list(disagreements(evolved[rng.choice(len(evolved), 1)], each, readings))
+
+
+@pytest.mark.parametrize("camera", ["J1", "end"])
+def test_a_world_that_is_stepped_ends_as_the_kernel_does(camera, evolved):
+    """Two blocks of lanes, the second of them not full."""
+    readings = Readings(camera_origin=camera)
+    trials = draw_trials(Condition.WITH_INDICATE.instructions, 2, readings, np.random.default_rng(3))
+    records = [record_trial(evolved[t % 60], trials[t], readings) for t in range(len(trials))]
+    world = VectorWorld(trials, readings)
+    for k in range(max(record.steps for record in records)):
+        turns = np.zeros((len(trials), 2), int)
+        for t, record in enumerate(records):
+            if k < record.steps:
+                assert np.array_equal(world.inputs[t], record.inputs[k]), (t, k)
+                turns[t] = np.sign(record.turns[k])
+        world.step(turns)
+    for name in ("f1", "f2", "f3", "success", "steps"):
+        asked = [getattr(record.scores, name)[0, 0] for record in records]
+        assert np.array_equal(getattr(world.scores(), name)[0], asked), name
