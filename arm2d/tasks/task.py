@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
-from functools import cached_property
+from functools import cache, cached_property
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any, Final, Literal, get_args, get_type_hints
 
@@ -186,18 +186,21 @@ def task_of(task: AnyTask | str) -> Task:
     """A condition of the paper, by itself or by its name, or with-both, as a task; a task as it is."""
     if isinstance(task, Task):
         return task
-    return Task(third=_third(task))
+    return _papers()[task] if isinstance(task, Condition) else Task(third=_third(task))
 
 
 def as_paper(task: AnyTask | str) -> AnyTask:
     """The condition of the paper that a task is, or else the task."""
-    if isinstance(task, Condition):  # asked for each generation
+    if isinstance(task, Condition):
         return task
     own = task_of(task)
-    for condition in Condition:
-        if own == Task(third=_third(condition)):
-            return condition
-    return own
+    return next((condition for condition, papers in _papers().items() if own == papers), own)
+
+
+@cache
+def _papers() -> dict[Condition, Task]:
+    """The paper's conditions as tasks."""
+    return {condition: Task(third=_third(condition)) for condition in Condition}
 
 
 def papers_condition(task: AnyTask, what: str) -> Condition:

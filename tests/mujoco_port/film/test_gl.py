@@ -23,6 +23,10 @@ print("; ".join(f"{each.name} {each.state.value} {each.next_move}" for each in e
 EGL_DRIVERS_HIDDEN = {"__EGL_VENDOR_LIBRARY_DIRS": "/nowhere", "__EGL_VENDOR_LIBRARY_FILENAMES": ""}
 
 
+def _draw(record, path, step=0):
+    return port_picture(record, step, path, quality="draft")
+
+
 def run_gl(code, **environment):
     """Run Python with these variables; its (exit code, last line of output)."""
     base = {
@@ -95,24 +99,20 @@ def test_a_file_in_the_current_folder_is_not_taken_for_a_package(tmp_path, monke
 
 def test_pictures_drawn_in_several_threads_are_those_drawn_one_by_one(champion_records, tmp_path):
     records = champion_records[:2]
-    alone = [port_picture(record, 3, tmp_path / f"alone-{k}.png") for k, record in enumerate(records)]
+    alone = [_draw(record, tmp_path / f"alone-{k}.png", 3) for k, record in enumerate(records)]
     with ThreadPoolExecutor(2) as pool:
         together = pool.map(
-            lambda k: port_picture(records[k], 3, tmp_path / f"together-{k}.png"), range(len(records))
+            lambda k: _draw(records[k], tmp_path / f"together-{k}.png", 3), range(len(records))
         )
         for one, other in zip(alone, together, strict=True):
             assert one.read_bytes() == other.read_bytes()
-
-
-def _draw(record, path):
-    return port_picture(record, 0, path)
 
 
 def test_a_pool_forked_after_something_was_drawn_is_refused_and_a_spawned_one_draws(
     champion_records, tmp_path
 ):
     record, path = champion_records[0], tmp_path / "picture.png"
-    drawn = port_picture(record, 0, path).read_bytes()
+    drawn = _draw(record, path).read_bytes()
     with (
         multiprocessing.get_context("fork").Pool(1) as pool,
         pytest.raises(NoRenderingError, match=r"was forked from one that had drawn.*get_context\('spawn'\)"),
