@@ -3,9 +3,10 @@
     python -m scripts.mutants --number 200 --seed 1 --output mutants.csv
 
 A random sample of all faults (`scripts.faults`) of the modules below is tried in copies of the tree,
-each with the tests that concern its module: those of its name first, the slow ones only if no other
-notices it. The tree itself is not touched. What was tried stands in the output and is not tried again.
-A fault with which a test does not end is noticed, and so is one with which nothing can be imported.
+each with the tests that concern its module: those of its name and those that import it first, the slow
+ones only if no other notices it. The tree itself is not touched. What was tried stands in the output and
+is not tried again. A fault with which a test does not end is noticed, and so is one with which nothing
+can be imported.
 
 Two programs that do the like were tried. mutmut (3.8) leaves constants and decorated functions alone: in
 the solver, whose functions are all compiled, it finds no fault to put in. cosmic-ray (8.7) rewrites the
@@ -18,6 +19,7 @@ import argparse
 import difflib
 import hashlib
 import os
+import re
 import resource
 import tempfile
 from collections.abc import Mapping
@@ -62,7 +64,11 @@ TESTS: Final[dict[str, tuple[str, ...]]] = {
         "tests/arm2d/test_kernel.py",
     ),
     "arm2d/network/controller.py": ("tests/arm2d/network/test_controller.py", "tests/arm2d/test_kernel.py"),
-    "arm2d/readings.py": ("tests/arm2d/test_readings.py", "tests/arm2d/test_trials.py"),
+    "arm2d/readings.py": (
+        "tests/arm2d/test_readings.py",
+        "tests/arm2d/test_trials.py",
+        "tests/evolution/runs/test_golden.py",
+    ),
     "arm2d/instructions.py": ("tests/arm2d/test_instructions.py",),
     "arm2d/worlds/*.py": ("tests/arm2d/worlds",),
     "evolution/search/*.py": ("tests/evolution/search", "tests/evolution/runs/test_golden.py"),
@@ -97,9 +103,11 @@ def all_mutants() -> list[Mutant]:
     mutants: dict[tuple[str, ...], Mutant] = {}
     for path in sorted(paths):
         source = path.read_bytes()
+        name = path.relative_to(ROOT).as_posix()
+        tests, nearest = witnesses_of(name), nearest_of(name)
         for fault in faults_in(source):
-            row = row_of(path.relative_to(ROOT).as_posix(), source, fault)
-            mutants.setdefault(row.what, Mutant(row, fault, witnesses_of(row.path)))
+            row = row_of(name, source, fault)
+            mutants.setdefault(row.what, Mutant(row, fault, tests, nearest))
     return list(mutants.values())
 
 
@@ -117,10 +125,26 @@ def _digest(seed: int, *words: str) -> bytes:
 
 
 def witnesses_of(path: str) -> tuple[str, ...]:
-    """The tests that concern a module; those that have its name come first."""
-    tests = next(tests for pattern, tests in TESTS.items() if Path(path).match(pattern))
-    own = f"tests/{Path(path).parent}/test_{Path(path).stem}.py"
-    return (own, *(test for test in tests if test != own)) if (ROOT / own).exists() else tests
+    """The tests that concern a module."""
+    return next(tests for pattern, tests in TESTS.items() if Path(path).match(pattern))
+
+
+def nearest_of(path: str) -> tuple[str, ...]:
+    """Those among them that have its name or import it, or else the first."""
+    module = path.removesuffix(".py").replace("/", ".")
+    imports = re.compile(rf"^(from|import) {re.escape(module)}\b", re.MULTILINE)
+    tests = witnesses_of(path)
+    named = ROOT / "tests" / Path(path).parent / f"test_{Path(path).stem}.py"
+    if tests is KERNEL:  # compiling costs more than all else
+        return (*([named.relative_to(ROOT).as_posix()] if named.exists() else []), KERNEL[0])
+    files = [found for test in tests for found in _test_files(ROOT / test)]
+    importing = [file for file in files if imports.search(file.read_text(encoding="utf-8"))]
+    nearest = [file.relative_to(ROOT).as_posix() for file in (named, *importing) if file.exists()]
+    return tuple(dict.fromkeys(nearest)) or tests[:1]
+
+
+def _test_files(test: Path) -> list[Path]:
+    return sorted(test.rglob("test_*.py")) if test.is_dir() else [test]
 
 
 def summary(rows: list[Row], equivalent: Mapping[Key, str]) -> str:

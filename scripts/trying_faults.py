@@ -70,11 +70,19 @@ class Row:
 
 @dataclass(frozen=True)
 class Mutant:
-    """A fault of a module, the row that will tell of it, and the tests that should notice it."""
+    """A fault of a module.
+
+    Attributes:
+        row: What will tell of it.
+        fault: It.
+        tests: Those that should notice it.
+        nearest: Those that are asked first; none if all are few.
+    """
 
     row: Row
     fault: Fault
     tests: tuple[str, ...]
+    nearest: tuple[str, ...] = ()
 
 
 class Copy:
@@ -116,7 +124,7 @@ class Copy:
         try:
             if any(Path(mutant.row.path).match(pattern) for pattern in NOT_COMPILED):
                 self._take_over_what_was_compiled()
-            return self._run_in_turn(mutant.tests)
+            return self._run_in_turn(mutant)
         finally:
             path.write_bytes(sound)
             os.utime(path, (stamp.st_atime, stamp.st_mtime))
@@ -135,11 +143,13 @@ class Copy:
         )
         return asked.stdout.strip()
 
-    def _run_in_turn(self, tests: Sequence[str]) -> tuple[str, float, str]:
-        """The same, of the first test by itself, then of all quick ones, then of the slow."""
-        turns = (tests[:1], ("-m", "not slow", *tests), ("-m", "slow", *tests))
+    def _run_in_turn(self, mutant: Mutant) -> tuple[str, float, str]:
+        """The same, of the quick ones among the nearest tests, then of all quick ones, then of the slow."""
+        turns = [("-m", "not slow", *mutant.tests), ("-m", "slow", *mutant.tests)]
+        if mutant.nearest:
+            turns.insert(0, ("-m", "not slow", *mutant.nearest))
         outcome, seconds, failed = "survived", 0.0, ""
-        for asked in turns if len(tests) > 1 else [tests]:
+        for asked in turns:
             if outcome == "survived":
                 outcome, taken, failed = self.run(asked)
                 seconds += taken

@@ -45,6 +45,11 @@ def test_turn_is_the_printed_one_to_a_tenth_of_a_picodegree():
     assert Readings(turn="radians").turn_size == pytest.approx(2.864788975654116, abs=1e-13)
 
 
+@pytest.mark.parametrize("turn", ["degrees", "radians"])
+def test_turn_is_a_whole_number_of_the_steps_that_the_page_rounds_to(turn):
+    assert (Readings(turn=turn).turn_size * 2**44).is_integer()
+
+
 def test_sums_of_turns_from_ninety_degrees_are_exact():
     turn = Readings().turn_size
     there = [90.0]
