@@ -4,6 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from models.build import ROBOT_PREFIX, build_model
+from models.filmed import film_spec
 from models.presence import RELAXED
 from models.robots import ROBOTS
 from models.shapes import ICUB_SHAPES
@@ -117,11 +119,20 @@ def test_what_does_not_act_is_held_where_the_joint_can_be(robot):
             assert low <= held[name] <= high, name
 
 
+def test_a_head_that_cannot_turn_is_turned_to_the_arm_that_acts(robot):
+    """By 15 to 25 degrees to the right of the chest."""
+    model = build_model(robot)
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    presence = robot.presence
+    rotation = data.body(ROBOT_PREFIX + presence.head).xmat.reshape(3, 3)
+    ahead, left = rotation @ presence.ahead, rotation @ presence.left
+    assert 15.0 < np.degrees(np.arctan2(ahead[0], ahead[1])) < 25.0
+    assert left[0] < -0.9
+
+
 def test_the_resting_hand_hangs_beside_the_robot_below_the_table(robot):
     """In front of the trunk, to its left, out of the workspace."""
-    from models.build import ROBOT_PREFIX
-    from models.filmed import film_spec
-
     model = film_spec(robot).compile()
     data = mujoco.MjData(model)
     data.qpos[[model.joint(ROBOT_PREFIX + name).qposadr[0] for name in robot.joints]] = robot.posture.rest

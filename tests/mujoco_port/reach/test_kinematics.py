@@ -1,5 +1,7 @@
 """Inverse kinematics: how exactly the hand follows, and that Pinocchio and MuJoCo mean the same robot."""
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
@@ -51,6 +53,26 @@ def test_pinocchio_and_mujoco_agree_on_ten_thousand_postures(robot, kinematics):
         worst = max(worst, np.abs(hand.xpos - pose.position).max())
         assert np.abs(hand.xmat.reshape(3, 3) - pose.rotation).max() < 1e-12
     assert worst < 1e-12
+
+
+def test_a_joint_that_does_not_act_is_held_at_its_angle_by_both(robot):
+    """One between root and hand, for on others the hand does not depend."""
+    at = robot.joints.index("torso_yaw")
+    rest, weights = (np.delete(numbers, at) for numbers in (robot.posture.rest, robot.posture.weights))
+    held = replace(
+        robot,
+        joints=tuple(np.delete(robot.joints, at).tolist()),
+        posture=replace(robot.posture, rest=tuple(rest), weights=tuple(weights)),
+        fixed={**robot.fixed, "torso_yaw": 0.3},
+    )
+    model, kinematics = build_model(held), ArmKinematics(held)
+    data = mujoco.MjData(model)
+    data.qpos[[model.joint(ROBOT_PREFIX + name).qposadr[0] for name in held.joints]] = rest
+    mujoco.mj_kinematics(model, data)
+    np.testing.assert_allclose(kinematics.forward(rest).position, data.site(HAND_SITE).xpos, atol=1e-12)
+    whole = ArmKinematics(robot).forward(np.insert(rest, at, 0.3))
+    np.testing.assert_allclose(kinematics.forward(rest).rotation, whole.rotation, atol=1e-12)
+    np.testing.assert_allclose(kinematics.forward(rest).position, whole.position, atol=1e-12)
 
 
 def test_joint_limits_are_those_of_the_mujoco_model(robot, kinematics):

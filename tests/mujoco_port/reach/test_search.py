@@ -8,7 +8,7 @@ import pytest
 
 import models.robots
 from mujoco_port.reach import wishes
-from mujoco_port.reach.search import search, varied, written
+from mujoco_port.reach.search import search, search_with_progress, varied, written
 from mujoco_port.reach.wishes import Cost, Wishes, walks
 
 
@@ -72,6 +72,22 @@ def test_record_is_printed_as_it_stands_in_its_file(robot):
     source = Path(models.robots.__file__).read_text()
     for line in written(robot).splitlines():
         assert line in source
+
+
+def test_a_search_that_is_interrupted_gives_the_best_record_so_far(robot, monkeypatch):
+    """Each record is better than the one before, until Ctrl-C is pressed in the third population."""
+    asked = []
+
+    def cost(self, candidate):
+        if len(asked) == 35:
+            raise KeyboardInterrupt
+        asked.append(candidate)
+        return Cost(100.0 - len(asked))
+
+    monkeypatch.setattr(Wishes, "cost", cost)
+    found = search_with_progress(robot, evaluations=10_000, seed=1)
+    population = 4 + int(3 * np.log(3 + 2 * len(robot.joints) + 2))
+    assert found == asked[2 * population]  # the record itself was the first
 
 
 def test_negative_numbers_are_refused(robot):
