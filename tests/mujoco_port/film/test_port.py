@@ -44,7 +44,7 @@ def test_last_moment_of_a_rollout_is_the_end_of_the_trial():
 
 @pytest.mark.slow
 def test_video_shows_robot_and_plane_in_real_time(shortest, tmp_path):
-    path = port_trial(shortest, tmp_path / "trial.mp4")
+    path = port_trial(shortest, tmp_path / "trial.mp4", quality="draft")
     meta = imageio.immeta(path, plugin="FFMPEG")
     assert meta["size"] == (1280, 720)
     assert meta["fps"] == 10 * FRAMES_PER_STEP
