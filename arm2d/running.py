@@ -138,7 +138,8 @@ def arrays_of(trials: Trials) -> exchange.TrialArrays:
     if (changes := trials.changes) is not None:
         first = np.stack([changes.first_actions, changes.first_objects], axis=-1)
         later = np.stack([changes.later_actions, changes.later_objects], axis=-1)
-        words, delays = np.stack([first, later], axis=1), changes.delays
+        # Copied, for Numba compiles all anew for an array that cannot be written to.
+        words, delays = np.stack([first, later], axis=1), changes.delays.copy()
     word_steps = np.zeros(len(trials), np.int64)
     if trials.task is not None and trials.task.in_sequence:
         words = phases(trials.actions, trials.objects, trials.task)

@@ -83,6 +83,8 @@ class ArmKinematics:
         self.rest = np.array(posture.rest)
         self.lower = self._model.lowerPositionLimit.copy()
         self.upper = self._model.upperPositionLimit.copy()
+        # Copies that can be written to, as a step's bounds can: else Numba would compile the solver twice.
+        self._bounds = self.lower.copy(), self.upper.copy()
         self._weights = np.array(posture.weights)
         self._metric = np.diag(self._weights)
         self._down = np.array([0.0, np.sin(posture.roll), np.cos(posture.roll)])
@@ -121,10 +123,10 @@ class ArmKinematics:
         angles = np.clip(self.rest, self.lower, self.upper)
         for _ in range(MAX_SETTLING_STEPS):
             before = angles
-            angles = self._relax(angles, target, heading, self.lower, self.upper)
+            angles = self._relax(angles, target, heading, *self._bounds)
             if np.abs(angles - before).max() < SETTLED:
                 break
-        arrived = self._home_in(angles, target, self.lower, self.upper)
+        arrived = self._home_in(angles, target, *self._bounds)
         return self._nearest(angles, target) if arrived is None else arrived
 
     def step(self, angles: np.ndarray, target: np.ndarray, heading: float) -> np.ndarray:
@@ -144,7 +146,7 @@ class ArmKinematics:
         upper = np.minimum(self.upper, angles + MAX_TURN)
         arrived = self._home_in(self._relax(angles, target, heading, lower, upper), target, lower, upper)
         if arrived is None:  # further away than a turn leads
-            arrived = self._home_in(angles, target, self.lower, self.upper)
+            arrived = self._home_in(angles, target, *self._bounds)
         return self._nearest(angles, target) if arrived is None else arrived
 
     def follow(self, targets: np.ndarray, headings: np.ndarray) -> np.ndarray:
@@ -203,7 +205,7 @@ class ArmKinematics:
         shortest = np.inf
         for start in (angles, np.clip(self.rest, self.lower, self.upper), *random):
             nearest, distance = self._descend(start, target)
-            arrived = self._home_in(nearest, target, self.lower, self.upper)
+            arrived = self._home_in(nearest, target, *self._bounds)
             if arrived is not None:
                 return arrived
             shortest = min(shortest, distance)
@@ -217,7 +219,7 @@ class ArmKinematics:
         error = target - self._placement.translation
         for _ in range(MAX_DAMPED_STEPS):
             hessian = jacobian.T @ jacobian + damping * identity
-            trial = bounded(hessian, -error @ jacobian, jacobian, no_rows, angles, self.lower, self.upper)
+            trial = bounded(hessian, -error @ jacobian, jacobian, no_rows, angles, *self._bounds)
             trial_jacobian = self._jacobian(trial)[:3]
             trial_error = target - self._placement.translation
             if trial_error @ trial_error < error @ error:
