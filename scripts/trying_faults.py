@@ -20,7 +20,8 @@ from scripts.faults import Fault
 
 ROOT: Final = Path(__file__).parents[1]
 LIMIT: Final = 900.0  # [s] in which some test has to end, on the busiest of machines
-CPU_LIMIT: Final = 60.0  # [s] of processor time for the same
+QUICK_CPU_LIMIT: Final = 25.0  # [s] of processor time for the same, of tests that are not called slow
+SLOW_CPU_LIMIT: Final = 60.0
 LOOK: Final = 1.0  # [s] from one look to the next
 OPTIONS: Final = ("-x", "-p", "no:cacheprovider", "--tb=no")
 # Where compiled code is kept, as the program itself has it; a warning says what is unusual.
@@ -168,7 +169,7 @@ class Copy:
                 start_new_session=True,
             )
             try:
-                code = self._exit_code(process)
+                code = self._exit_code(process, QUICK_CPU_LIMIT if "not slow" in asked else SLOW_CPU_LIMIT)
                 outcome = "too slow" if code is None else "survived" if code in PASSED else "noticed"
             finally:
                 self._end_all(process)
@@ -176,7 +177,7 @@ class Copy:
             failed = [line for line in said if line.startswith(("FAILED ", "ERROR "))]
         return outcome, time.monotonic() - began, name_of(failed[0]) if failed else ""
 
-    def _exit_code(self, process: subprocess.Popen) -> int | None:
+    def _exit_code(self, process: subprocess.Popen, cpu_limit: float) -> int | None:
         """That of pytest, which says a letter after every test; None if it has fallen silent."""
         silence, written, before = 0.0, -1, 0.0
         while process.poll() is None:
@@ -185,7 +186,7 @@ class Copy:
             silence = silence + LOOK if size == written else 0.0
             before = before if size == written else taken
             written = size
-            if silence > LIMIT or taken - before > CPU_LIMIT:
+            if silence > LIMIT or taken - before > cpu_limit:
                 return None
             with suppress(subprocess.TimeoutExpired):
                 process.wait(LOOK)

@@ -7,9 +7,9 @@ import pytest
 
 from evolution.cli import main
 from evolution.runs.storage import read_arrays
-from mujoco_port.reach.certificate import MOST_TURN, STEP_DEG, certify
+from mujoco_port.reach.certificate import MOST_TURN, STEP_DEG, _along_alpha, _along_beta, certify
 from mujoco_port.reach.clearance import Clearance
-from mujoco_port.reach.workspace import hand_targets
+from mujoco_port.reach.workspace import hand_headings, hand_targets
 
 COARSE_DEG = 30.0  # the whole grid takes ten seconds; the walks' steps are the same
 COARSEST_DEG = 120.0
@@ -40,6 +40,46 @@ def test_postures_of_all_walks_hold_the_hand_at_the_target_two_of_them_raised(ce
         for i, j in ((0, 0), (3, 2), (-1, -1)):
             target = hand_targets(robot.plane, certificate.alpha[i], certificate.beta[j], above)
             assert np.linalg.norm(kinematics.forward(walk[i, j]).position - target) <= certificate.error.max()
+
+
+def test_walks_start_bent_and_go_from_place_to_neighbouring_place():
+    """To and fro in beta from alpha to alpha, or in alpha from beta to beta."""
+    assert _along_beta(2, 3) == [(0, 2), (0, 1), (0, 0), (1, 0), (1, 1), (1, 2)]
+    assert _along_alpha(3, 2) == [(2, 1), (1, 1), (0, 1), (0, 0), (1, 0), (2, 0)]
+
+
+def test_the_turn_told_of_a_place_is_the_widest_of_those_to_its_four_sides(certificate, kinematics):
+    plane = kinematics.robot.plane
+    for i, j in ((3, 2), (-1, 0)):
+        posture, alpha, beta = certificate.angles[0, i, j], certificate.alpha[i], certificate.beta[j]
+        turns = []
+        for by_alpha, by_beta in ((2.9, 0.0), (-2.9, 0.0), (0.0, 2.9), (0.0, -2.9)):
+            side = min(alpha + by_alpha, 210.0), max(beta + by_beta, 0.0)
+            heading = float(hand_headings(plane, *side))
+            turns.append(
+                np.abs(kinematics.step(posture, hand_targets(plane, *side), heading) - posture).max()
+            )
+        assert certificate.turn[0, i, j] == max(turns)
+
+
+def test_faults_are_counted_place_by_place(certificate):
+    """Two walks may fail at one place; unequal numbers of everything."""
+    error, table, itself = (np.full_like(certificate.error, 0.0) for _ in range(3))
+    table[:], itself[:] = 0.1, 0.1
+    error[:2, 0, 0] = error[3, 1, 1] = error[0, 2, 2] = 1.0
+    table[1, 0, 1], table[2, 0, 1] = -0.002, -0.005
+    itself[0, 3, :2], itself[1, 3, 0] = 0.0, -0.0011
+    itself[2, 4, 0] = np.nan
+    room, turn = certificate.room.copy(), certificate.turn.copy()
+    room[0, 0, 0], turn[3, 2, 1] = -0.25, 0.512
+    made_up = replace(certificate, error=error, to_table=table, to_itself=itself, room=room, turn=turn)
+    assert made_up.faults() == [
+        f"3 of {error[0].size} places are not reached within 1e-06 m",
+        "in 1 places the robot meets the table, by up to 5.0 mm",
+        "in 2 places the robot meets itself, by up to 1.1 mm",
+        "a joint lies 0.250 rad beyond its limit",
+        "a joint turns by 0.512 rad to a neighbour, more than 0.15 rad",
+    ]
 
 
 def test_default_step_is_a_turn_of_the_2d_world_and_not_wider():
