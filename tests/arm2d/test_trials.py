@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, LabelChanges, Readings, Trials, draw_trials
+from arm2d.trials import _chord_ends
 
 INSTRUCTIONS = Condition.WITH_INDICATE.instructions
 
@@ -165,3 +166,8 @@ def test_number_of_changes_is_that_of_the_trials():
 def test_so_many_trials_that_no_memory_holds_them_are_refused():
     with pytest.raises(ValueError, match="asked for 100001 trials per area; at most 100000 fit"):
         draw(per_area=100_001)
+
+
+def test_what_is_kept_for_the_next_draw_cannot_be_changed():
+    with pytest.raises(ValueError, match="read-only"):
+        _chord_ends(Readings())[:] = 0.0

@@ -54,6 +54,13 @@ def test_angles_to_a_point_end_in_it():
     assert (np.abs(np.diff(alpha)) < 10).all()  # no jump of a full turn
 
 
+@pytest.mark.parametrize(("reach", "beta"), [(150.0 + 5e-10, 0.0), (np.hypot(100.0, 50.0) - 5e-10, 90.0)])
+def test_a_point_that_is_too_far_by_rounding_alone_is_reached(reach, beta):
+    alpha, found = angles_to([[0.0, reach]])
+    assert found == pytest.approx(beta, abs=1e-6)
+    np.testing.assert_allclose(tip_in_plane(alpha, found), [[0.0, reach]], atol=1e-6)
+
+
 @pytest.mark.parametrize(
     ("points", "sentence"),
     [
