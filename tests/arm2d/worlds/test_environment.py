@@ -60,6 +60,20 @@ def test_a_vector_of_worlds_pays_what_single_worlds_pay(reward):
         assert totals[t] == pytest.approx(total, abs=1e-12)
 
 
+def test_a_vectors_spaces_hold_what_it_takes_and_gives():
+    worlds = gymnasium.make_vec(NAME, num_envs=4).unwrapped
+    for space in (worlds.observation_space, worlds.action_space):
+        space.seed(1)
+    observations, _ = worlds.reset(seed=1)
+    assert worlds.num_envs == 4
+    assert worlds.observation_space.shape == observations.shape == (4, 18)
+    assert worlds.action_space.shape == (4, 2)
+    for _ in range(20):
+        assert worlds.observation_space.contains(observations)
+        observations, rewards, ended, cut, _ = worlds.step(worlds.action_space.sample())
+        assert rewards.shape == ended.shape == cut.shape == (4,)
+
+
 def test_a_trial_that_ended_begins_anew_with_the_next_step():
     worlds = gymnasium.make_vec(NAME, num_envs=40, reward="progress")
     observations, _ = worlds.reset(seed=5)

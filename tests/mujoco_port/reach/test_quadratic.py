@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mujoco_port.reach.quadratic import MAX_STEP, bounded, solve_bounded, solve_positive
+from mujoco_port.reach.quadratic import MAX_STEP, bounded, relaxed, solve_bounded, solve_positive
 
 N, M = 10, 3
 
@@ -81,3 +81,47 @@ def test_cholesky_solves_what_numpy_solves():
     columns = jacobian.T.copy()
     solve_positive(hessian.copy(), columns)
     np.testing.assert_allclose(columns, np.linalg.solve(hessian, jacobian.T), rtol=1e-9)
+
+
+REST, WEIGHTS, ROLL, HEADING = np.linspace(-0.3, 0.3, N), np.linspace(0.1, 1.0, N), 0.9, 0.7
+DOWN = np.array([0.0, np.sin(ROLL), np.cos(ROLL)])
+
+
+def wished(kinematics, angles, heading_weight, level_weight):
+    """What a relaxed step lowers: half the squares of departure from rest, of heading error and of tilt."""
+    hand = kinematics.forward(angles).rotation
+    off = np.arctan2(hand[1, 0], hand[0, 0]) - HEADING
+    tilt = np.arccos(np.clip(-(hand @ DOWN)[2], -1.0, 1.0))
+    return 0.5 * (WEIGHTS @ (angles - REST) ** 2 + heading_weight * off**2 + level_weight * tilt**2)
+
+
+@pytest.mark.parametrize(("heading_weight", "level_weight"), [(2.0, 0.0), (0.0, 3.0), (2.0, 3.0)])
+def test_a_relaxed_step_goes_down_the_slope_of_what_is_wished(kinematics, heading_weight, level_weight):
+    """The price of moving is so high here that only the slope counts; nothing is to be reached."""
+    price, nothing, wide = 1e7, np.zeros(0), np.full(N, 10.0)
+    rng = np.random.default_rng(6)
+    for _ in range(5):
+        angles = rng.uniform(kinematics.lower, kinematics.upper)
+        jacobian, hand = kinematics._jacobian(angles), kinematics.forward(angles).rotation
+        wishes = np.array([heading_weight, level_weight, price])
+        there = relaxed(
+            angles,
+            jacobian,
+            hand,
+            nothing,
+            HEADING,
+            DOWN,
+            REST,
+            WEIGHTS,
+            wishes,
+            angles - wide,
+            angles + wide,
+        )
+        step, slope = 1e-6 * np.eye(N), np.empty(N)
+        for joint in range(N):
+            ahead, back = (
+                wished(kinematics, angles + side * step[joint], heading_weight, level_weight)
+                for side in (1.0, -1.0)
+            )
+            slope[joint] = (ahead - back) / 2e-6
+        np.testing.assert_allclose(-price * (there - angles), slope, atol=2e-5 * np.abs(slope).max())
