@@ -8,10 +8,11 @@ from arm2d.worlds.progress import progress_of
 
 
 @pytest.mark.parametrize("condition", Condition)
-def test_progress_ends_with_the_scores_of_the_kernel(evolved_agent, condition):
-    trials = draw_trials(condition.instructions, 2, Readings(), np.random.default_rng(8))
+@pytest.mark.parametrize("readings", [Readings(), Readings(f3_time="best", run_counting="cumulative")])
+def test_progress_ends_with_the_scores_of_the_kernel(evolved_agent, condition, readings):
+    trials = draw_trials(condition.instructions, 2, readings, np.random.default_rng(8))
     for index in range(len(trials)):
-        record = record_trial(evolved_agent, trials[index])
+        record = record_trial(evolved_agent, trials[index], readings)
         progress = progress_of(record)
         assert progress.score[-1] == pytest.approx(record.fitness, abs=1e-9)
         assert len(progress.share) == record.steps + 1
