@@ -157,6 +157,20 @@ def test_there_are_no_ancestors_where_there_are_no_parents(finished, capsys):
     assert "has no lines of ancestors: its algorithm" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(("algorithm", "config"), [(GeneticAlgorithm, SMALL), (CmaEs, CMA_ES)])
+def test_a_new_one_begins_with_generation_0(algorithm, config):
+    """Told the same, it breeds the same as one that is told where it begins."""
+    new, told = algorithm(config), algorithm(config, 0)
+    assert new.generation == 0
+    for generation in (1, 2):
+        np.testing.assert_array_equal(new.ask(), told.ask())
+        fitness = new.ask().mean(axis=1)
+        new.tell(fitness)
+        told.tell(fitness)
+        assert new.generation == generation
+    np.testing.assert_array_equal(new.ask(), told.ask())
+
+
 def test_a_state_of_another_algorithm_is_refused_in_one_sentence():
     genetic, cma_es = GeneticAlgorithm(SMALL).state(), CmaEs(CMA_ES).state()
     with pytest.raises(ValueError, match="no state of the algorithm cma-es: it holds genotypes, parents, "):
