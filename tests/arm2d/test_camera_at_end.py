@@ -89,6 +89,13 @@ def test_a_disc_around_j2_fills_the_whole_view_if_any_part_counts():
         assert sectors_of(play(STILL, discs)) == ([2] if offset == 0.0 else [])
 
 
+@pytest.mark.parametrize(("offset", "sectors"), [(-92.0, [1]), (92.0, [3])])
+def test_a_wide_disc_beside_j2_reaches_into_view_from_either_side(offset, sectors):
+    """11.8 cm wide at 11.9 cm it covers 82.6 degrees to either side, though its centre is behind J2."""
+    readings = replace(END, object_vision="any_part", object_radius=11.8)
+    assert sectors_of(play(STILL, {GREEN: seen_from_end(11.9, offset)}, readings=readings)) == sectors
+
+
 def test_pushed_disc_is_seen_exactly_where_s2_has_it():
     """Carried 40 cm along S2 at its right side, it lies atan(5 / 40) to the right of S2, that is, of beta."""
     alpha, beta = 80.0 - 15 * 2.9, 90.0 - 15 * 2.9

@@ -28,6 +28,12 @@ def test_start_areas_follow_the_sectors():
     assert Readings(start_half_width=0.0).start_intervals == ((60.0, 60.0), (120.0, 120.0))
 
 
+def test_cones_are_the_printed_ones_and_indicates_may_be_wide():
+    assert (Readings().target_cone, Readings().indicate_cone) == (4.6, 4.6)
+    wide = Readings(indicate_angle="wide")
+    assert (wide.target_cone, wide.indicate_cone) == (4.6, 30.0)
+
+
 def test_whole_numbers_are_written_like_their_fractions():
     whole = Readings.from_mapping({"object_radius": 8, "sector_centres": [45, 90, 135]})
     assert repr(whole) == repr(Readings(object_radius=8.0, sector_centres=(45.0, 90.0, 135.0)))

@@ -1,5 +1,6 @@
 """Links whose inertia no body can have are named, and physics on such a robot is refused."""
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -16,6 +17,7 @@ from models.robots import get_robot
         (1.0, [-0.1, 0.2, 0.3], "a moment of -0.1 kg m^2"),
         (1.5, [0.0, 0.0, 0.0], "1.5 kg without inertia"),
         (0.0, [0.0, 0.0, 0.0], ""),  # the frame of a sensor
+        (mujoco.mjMINVAL, [0.0, 0.0, 0.0], ""),  # MuJoCo takes it for none
     ],
 )
 def test_moments_of_a_body_are_positive_and_obey_the_triangle_inequality(mass, principal, reason):

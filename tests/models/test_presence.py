@@ -79,6 +79,12 @@ def test_a_straight_finger_is_the_capsule_that_meets_objects(robot):
         assert finger.radius == pytest.approx(capsule.radius, abs=1.2 * MM)
 
 
+def test_what_a_record_maps_cannot_be_changed(robot):
+    for mapping in (robot.fixed, robot.presence.resting, robot.presence.hands):
+        with pytest.raises(TypeError, match="does not support item assignment"):
+            mapping["l_elbow"] = 0.0
+
+
 def test_phalanges_get_shorter_towards_the_tip(robot):
     for finger in robot.presence.fingers:
         assert list(finger.lengths) == sorted(finger.lengths, reverse=True)

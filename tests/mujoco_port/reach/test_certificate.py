@@ -50,11 +50,11 @@ def test_walks_start_bent_and_go_from_place_to_neighbouring_place():
 
 def test_the_turn_told_of_a_place_is_the_widest_of_those_to_its_four_sides(certificate, kinematics):
     plane = kinematics.robot.plane
-    for i, j in ((3, 2), (-1, 0)):
+    for i, j in np.ndindex(certificate.turn.shape[1:]):
         posture, alpha, beta = certificate.angles[0, i, j], certificate.alpha[i], certificate.beta[j]
         turns = []
         for by_alpha, by_beta in ((2.9, 0.0), (-2.9, 0.0), (0.0, 2.9), (0.0, -2.9)):
-            side = min(alpha + by_alpha, 210.0), max(beta + by_beta, 0.0)
+            side = np.clip(alpha + by_alpha, -30.0, 210.0), np.clip(beta + by_beta, 0.0, 90.0)
             heading = float(hand_headings(plane, *side))
             turns.append(
                 np.abs(kinematics.step(posture, hand_targets(plane, *side), heading) - posture).max()

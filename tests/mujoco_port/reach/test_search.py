@@ -90,6 +90,11 @@ def test_a_search_that_is_interrupted_gives_the_best_record_so_far(robot, monkey
     assert found == asked[2 * population]  # the record itself was the first
 
 
+def test_the_record_costs_what_the_search_left_it_at(robot, few_walks):
+    """On the few walks; whoever changes one of its numbers by hand is told."""
+    assert Wishes(robot).cost(robot).total == pytest.approx(0.85687, rel=1e-4)
+
+
 def test_negative_numbers_are_refused(robot):
     with pytest.raises(ValueError, match="give numbers from 0 on"):
         search(robot, evaluations=-1, seed=0, tell=lambda *_: None)
