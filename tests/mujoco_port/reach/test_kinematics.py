@@ -151,6 +151,23 @@ def test_trial_can_start_at_every_bound_of_the_workspace(robot, kinematics):
             assert np.linalg.norm(kinematics.forward(angles).position - target) <= LARGEST_ERROR_M
 
 
+def test_a_settled_posture_stays_where_it_is(robot, kinematics):
+    for alpha, beta in ((-30.0, 90.0), (90.0, 45.0), (150.0, 0.0), (210.0, 90.0)):
+        target, heading = (
+            hand_targets(robot.plane, alpha, beta),
+            float(hand_headings(robot.plane, alpha, beta)),
+        )
+        settled = kinematics.settle(target, heading)
+        np.testing.assert_allclose(kinematics.step(settled, target, heading), settled, atol=1.01e-7)
+
+
+def test_the_search_for_the_nearest_place_ends_at_once_where_the_hand_is_there(kinematics):
+    posture = np.random.default_rng(3).uniform(kinematics.lower, kinematics.upper)
+    found, distance = kinematics._descend(posture, kinematics.forward(posture).position)
+    np.testing.assert_allclose(found, posture, atol=1e-9)
+    assert distance < 1e-9
+
+
 def test_far_target_is_reached_in_one_step_if_need_be(robot, kinematics):
     alpha, beta = np.array([0.0, 180.0]), np.array([90.0, 0.0])
     targets = hand_targets(robot.plane, alpha, beta)
