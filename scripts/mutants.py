@@ -87,6 +87,7 @@ TESTS: Final[dict[str, tuple[str, ...]]] = {
     "models/filmed.py": FILMED,
     "models/*.py": (
         "tests/models",
+        "tests/mujoco_port/reach/test_search.py",
         "tests/mujoco_port/reach/test_workspace.py",
         "tests/mujoco_port/reach/test_certificate.py",
         "tests/mujoco_port/reach/test_kinematics.py",

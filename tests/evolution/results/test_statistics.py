@@ -64,6 +64,17 @@ def test_bootstrap_interval_of_a_constant_is_the_constant():
     assert mean_interval(np.full(8, 0.25), rng()) == (0.25, 0.25)
 
 
+@pytest.mark.parametrize("level", [0.95, 0.8])
+def test_bootstrap_interval_leaves_out_equal_shares_of_ten_thousand_samples(level):
+    """Runs drawn group by group, sample by sample; the sorted samples are counted off from both ends."""
+    groups, draws = [np.array([1.0, 2.0, 4.0, 8.0]), np.array([3.0, 3.5, 7.0])], rng()
+    samples = [group[draws.integers(0, len(group), (10_000, len(group)))] for group in groups]
+    differences = np.sort(samples[0].mean(axis=1) - samples[1].mean(axis=1))
+    found = bootstrap_interval(groups, lambda g: g[0].mean(axis=1) - g[1].mean(axis=1), rng(), level)
+    places = [(1 - level) / 2 * 9999, (1 + level) / 2 * 9999]
+    assert found == pytest.approx(np.interp(places, np.arange(10_000), differences), abs=1e-9)
+
+
 def test_bootstrap_resamples_each_group_apart():
     low, high = bootstrap_interval([np.zeros(4), np.ones(4)], lambda g: g[1].mean(1) - g[0].mean(1), rng())
     assert (low, high) == (1.0, 1.0)
