@@ -40,6 +40,20 @@ def test_beta_follows_from_where_the_hand_is(robot):
             assert beta_of(robot.plane, hand) == pytest.approx(beta, abs=1e-5)
 
 
+def test_eyes_look_along_s1(lab, evolved_agent):
+    """In every control step at the angle that the agent had ordered by then."""
+    trial = draw_trials([Instruction.parse("indicate green")], 1, READINGS, np.random.default_rng(2))[0]
+    eyes, looked = geometric_eyes(lab.body), []
+
+    def look(alpha):
+        looked.append(alpha)
+        return eyes(alpha)
+
+    record, _ = lab.closed_loop(evolved_agent, trial, READINGS, look)
+    np.testing.assert_array_equal(looked, record.orders[:-1, 0])
+    assert np.ptp(looked) > 5.0
+
+
 def test_touch_is_felt_on_the_side_where_it_was_within_the_last_moments():
     contact = np.zeros((10, 3), np.uint8)
     contact[2, 0], contact[7, 2] = RIGHT_SIDE, LEFT_SIDE
