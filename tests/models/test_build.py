@@ -15,6 +15,7 @@ from matplotlib.colors import to_rgb  # noqa: E402
 
 from arm2d.drawing import OBJECT_COLOURS  # noqa: E402
 from models.build import ROBOT_PREFIX, build_model  # noqa: E402
+from models.spec import read_spec  # noqa: E402
 
 ROBOT = get_robot("icub")
 
@@ -27,6 +28,14 @@ def model():
 def test_only_the_acting_joints_and_the_objects_can_move(model):
     names = {model.joint(i).name for i in range(model.njnt)}
     assert names == {ROBOT_PREFIX + name for name in ROBOT.joints} | {"blue", "green", "red"}
+
+
+def test_what_is_left_out_is_not_built_nor_what_hangs_on_it(model):
+    built = {model.body(k).name.removeprefix(ROBOT_PREFIX) for k in range(model.nbody)}
+    assert ROBOT.left_out
+    assert not {*ROBOT.left_out, "l_foot", "r_lower_leg"} & built
+    everything = {body.name for body in read_spec(ROBOT).bodies}
+    assert {*ROBOT.left_out, "l_foot", "r_lower_leg"} <= everything
 
 
 def test_hessian_is_dense(model):
