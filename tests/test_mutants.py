@@ -1,6 +1,7 @@
 """The faults of `make mutants`: what they are, where there are none, and that the tree is left alone."""
 
 import ast
+import re
 import subprocess
 
 import pytest
@@ -9,7 +10,7 @@ from scripts import trying_faults
 from scripts.equivalents import key_of, reasons
 from scripts.faults import faults_in
 from scripts.mutants import all_mutants, sample_of, summary
-from scripts.trying_faults import ROOT, Attempts, Copy, Mutant, name_of, row_of
+from scripts.trying_faults import ROOT, Attempts, Copy, Mutant, name_of, read_rows, row_of
 
 SOURCE = '''"""A number is 1 here."""
 from typing import TYPE_CHECKING
@@ -100,6 +101,15 @@ def test_what_is_called_equivalent_is_still_a_fault(found):
     for key, reason in reasons().items():
         assert key in keys, f"{key[0]} holds no such line any more; remove it from equivalent.toml"
         assert len(reason.split()) > 4
+
+
+def test_what_is_said_of_the_sample_is_what_its_rows_hold():
+    rows = list(read_rows(ROOT / "tests" / "mutants" / "seed-1.csv").values())
+    survivors = [row for row in rows if row.outcome == "survived"]
+    equivalent = [row for row in survivors if key_of(row) in reasons()]
+    page = " ".join((ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").split())
+    (said,) = re.findall(r"Of (\d+) faults of seed 1, (\d+) are noticed and (\d+) equivalent", page)
+    assert tuple(map(int, said)) == (len(rows), len(rows) - len(survivors), len(equivalent))
 
 
 @pytest.fixture

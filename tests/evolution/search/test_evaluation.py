@@ -24,6 +24,14 @@ def test_all_nine_instructions_are_carried_out_80_times():
     assert result.successes.max() <= 40
 
 
+def test_success_is_the_share_of_both_areas_together(evolved_agent):
+    result = evaluate(evolved_agent, Condition.WITH_INDICATE, Readings(), per_area=5)
+    right, left = result.successes[0, :, 0], result.successes[0, :, 1]
+    np.testing.assert_allclose(result.success[0], (right + left) / 10)
+    assert 0.0 < result.success.mean() <= 1.0
+    assert repr(result).endswith(f"{100 * result.success.mean():.0f} % carried out>")
+
+
 def test_exactly_the_two_never_met_instructions_are_not_experienced():
     for condition in Condition:
         result = evaluate(GENOTYPES[0], condition, Readings(), per_area=1)
