@@ -74,3 +74,9 @@ def test_an_impossible_config_is_refused_with_what_would_be_right(text, sentence
 def test_any_other_text_is_refused_plainly(text):
     with pytest.raises(ValueError, match=r"\w"):
         RunConfig.from_toml(text)
+
+
+def test_a_whole_number_and_its_fraction_are_the_same_setting():
+    whole, fraction = (Settings(algorithm="cma-es", cma_sigma=sigma) for sigma in (1, 1.0))
+    assert repr(whole) == repr(fraction)
+    assert type(whole.cma_sigma) is float
