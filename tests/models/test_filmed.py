@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from models.build import ROBOT_PREFIX, build_model
-from models.filmed import PALM, eye_joints, film_spec, finger_joint, hand_name
+from models.filmed import PALM, film_spec, finger_joint, hand_name
 from models.robots import ROBOTS
 from models.shapes import ICUB_SHAPES
 
@@ -30,7 +30,7 @@ def pose(model, **angles):
 def test_whatever_moves_acts_or_is_neck_eye_or_finger(filmed):
     robot, model = filmed
     presence = robot.presence
-    eyes = {name for eye in presence.eyes for name in eye_joints(eye)}
+    eyes = {name for eye in presence.eyes for name in eye.joints}
     fingers = {
         finger_joint(link, finger, phalanx)
         for link in presence.hands
@@ -44,7 +44,7 @@ def test_whatever_moves_acts_or_is_neck_eye_or_finger(filmed):
 def test_an_eye_pans_to_the_left_and_tilts_down_about_its_own_centre(filmed):
     robot, model = filmed
     for eye in robot.presence.eyes:
-        pan, tilt = eye_joints(eye)
+        pan, tilt = eye.joints
         straight, panned, tilted = (pose(model, **each) for each in ({}, {pan: 0.2}, {tilt: 0.2}))
         head = straight.body(ROBOT_PREFIX + eye.link)
         to_head = head.xmat.reshape(3, 3).T
