@@ -28,7 +28,7 @@ OPTIONS: Final = ("-x", "-p", "no:cacheprovider", "--tb=no")
 ASK_FOLDER: Final = "from arm2d.cache import cache_folder; print(cache_folder() or '')"
 # No function of another module has anything of these compiled into it.
 NOT_COMPILED: Final = (
-    "arm2d/controller.py",
+    "arm2d/network/controller.py",
     "arm2d/geometry.py",
     "arm2d/readings.py",
     "arm2d/reference.py",
