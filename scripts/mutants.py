@@ -34,12 +34,12 @@ from scripts.trying_faults import ROOT, Attempts, Copy, Mutant, Row, row_of
 
 # Which tests concern which modules, the quickest first; the first pattern that fits counts.
 KERNEL: Final = (
-    "tests/arm2d/test_interpreted.py",
+    "tests/arm2d/kernel/test_interpreted.py",
     "tests/arm2d/test_world.py",
     "tests/arm2d/test_arithmetic.py",
     "tests/evolution/runs/test_golden.py",
-    "tests/arm2d/test_kernel.py",
-    "tests/arm2d/test_camera_at_end.py",
+    "tests/arm2d/kernel/test_kernel.py",
+    "tests/arm2d/kernel/test_camera_at_end.py",
     "tests/arm2d/worlds/test_stepping.py",
 )
 RUNS: Final = (
@@ -61,9 +61,12 @@ TESTS: Final[dict[str, tuple[str, ...]]] = {
     "arm2d/trials.py": (
         "tests/arm2d/test_trials.py",
         "tests/arm2d/test_records.py",
-        "tests/arm2d/test_kernel.py",
+        "tests/arm2d/kernel/test_kernel.py",
     ),
-    "arm2d/network/controller.py": ("tests/arm2d/network/test_controller.py", "tests/arm2d/test_kernel.py"),
+    "arm2d/network/controller.py": (
+        "tests/arm2d/network/test_controller.py",
+        "tests/arm2d/kernel/test_kernel.py",
+    ),
     "arm2d/readings.py": (
         "tests/arm2d/test_readings.py",
         "tests/test_ledger.py",

@@ -11,7 +11,7 @@ from arm2d import Condition, LabelChanges, Readings, Trials, draw_trials, run_tr
 from arm2d.device import loop
 from arm2d.device.groups import Group
 from evolution.search.algorithm import mean_in_order
-from tests.arm2d.test_kernel import ALTERNATIVES, SEEN_FROM_THE_END, genotypes_of
+from tests.arm2d.kernel.test_kernel import ALTERNATIVES, SEEN_FROM_THE_END, genotypes_of
 
 WORLDS = [*ALTERNATIVES, *({"camera_origin": "end", **each} for each in SEEN_FROM_THE_END)]
 TRIALS = 2000

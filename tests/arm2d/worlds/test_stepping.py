@@ -21,7 +21,7 @@ from arm2d import (
     record_trial,
     run_trials,
 )
-from tests.arm2d.test_kernel import ALTERNATIVES, genotypes_of
+from tests.arm2d.kernel.test_kernel import ALTERNATIVES, genotypes_of
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "examples" / "by_hand.py"
 TRIALS_PER_ALTERNATIVE = -(-2_000 // len(ALTERNATIVES))

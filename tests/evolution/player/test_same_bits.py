@@ -9,7 +9,7 @@ import pytest
 
 from arm2d import Condition, LabelChanges, Readings, Trials, draw_trials, record_trial
 from evolution.player.bundle import bundle
-from tests.arm2d.test_kernel import ALTERNATIVES, changes_of, genotypes_of
+from tests.arm2d.kernel.test_kernel import ALTERNATIVES, changes_of, genotypes_of
 from tests.evolution.player.node import NODE
 
 TRIALS = 2000

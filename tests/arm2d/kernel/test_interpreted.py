@@ -5,8 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
-TESTS = ("test_world.py", "test_camera_at_end.py", "interpreted.py")
+ROOT = Path(__file__).parents[3]
+TESTS = ("test_world.py", "kernel/test_camera_at_end.py", "kernel/interpreted.py")
 
 
 def test_the_interpreted_kernel_stays_within_its_arrays_and_obeys_the_same_rules():

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, LabelChanges, Readings, Trials, VectorWorld, draw_trials, record_trial
-from tests.arm2d.test_kernel import disagreements
+from tests.arm2d.kernel.test_kernel import disagreements
 
 READINGS = [
     {},
