@@ -47,9 +47,8 @@ class DaskProcesses:
         return int(self.address.rpartition(":")[2])
 
     def close(self) -> None:
-        for each in self.processes:
+        for each in reversed(self.processes):  # a worker that has lost its scheduler waits for another one
             each.terminate()
-        for each in self.processes:
             try:
                 each.wait(20)
             except subprocess.TimeoutExpired:
