@@ -4,12 +4,13 @@ import mujoco
 import numpy as np
 import pytest
 
+from arm2d.constants import DT
 from models.build import ROBOT_PREFIX
 from mujoco_port.acting.exertion import head_exertion, tracking_errors
 from mujoco_port.acting.eyes import geometric_eyes
 from mujoco_port.acting.lab import Lab
 from mujoco_port.acting.open_loop import OpenLoop, planar_angles
-from mujoco_port.acting.rollout import carry_out
+from mujoco_port.acting.rollout import _gaze_of, carry_out
 from mujoco_port.film.physical_port import start_of
 from mujoco_port.reach.gaze import looked_at
 
@@ -54,6 +55,18 @@ def test_neck_and_eyes_keep_their_limits_speeds_and_torques(lab, searching, evol
     assert used.position.max() < 1.001  # the stops are a little soft
     assert used.velocity.max() < 1.0
     assert used.torque.max() < 0.5
+
+
+def test_a_head_in_a_hurry_takes_two_thirds_of_its_largest_speeds(lab):
+    gaze, presence = _gaze_of(lab.body), lab.body.robot.presence
+    before = np.array(gaze.follow(lab.kinematics.rest, 0.0, None))
+    steps = [before]
+    for _ in range(3):
+        steps.append(np.array(gaze.follow(lab.kinematics.rest, 180.0, DT)))
+    fastest = np.abs(np.diff(steps, axis=0)).max(axis=0) / DT  # [rad/s]
+    neck = len(presence.neck)
+    assert fastest[:neck].max() == pytest.approx(2 / 3 * presence.neck_speed)
+    assert fastest[neck:].max() <= 2 / 3 * presence.eye_speed + 1e-9
 
 
 def test_an_acting_robot_looks_where_s1_points(lab, searching, evolved_agent):
