@@ -71,20 +71,33 @@ def test_a_head_in_a_hurry_takes_two_thirds_of_its_largest_speeds(lab):
 
 def test_an_acting_robot_looks_where_s1_points(lab, searching, evolved_agent):
     """Both eyes within 6 degrees in most moments, as in films of set angles."""
-    robot, model = lab.body.robot, lab.body.model
     record = swept(lab, evolved_agent, searching[0])
-    data, off = mujoco.MjData(model), []
-    joints = [model.joint(ROBOT_PREFIX + name).qposadr[0] for name in (*robot.joints, *robot.head_joints)]
     rows = np.arange(0, len(record.alpha), 50)
-    for row, place in zip(rows, looked_at(robot, record.alpha[rows]), strict=True):
-        data.qpos[joints] = *record.angles[row], *record.head[row]
-        mujoco.mj_kinematics(model, data)
-        for eye in robot.presence.eyes:
-            body = data.body(ROBOT_PREFIX + eye.name)
-            way = (place - body.xpos) / np.linalg.norm(place - body.xpos)
-            cosine = way @ body.xmat.reshape(3, 3) @ np.array(eye.ahead)
-            off.append(np.degrees(np.arccos(min(1.0, cosine))))
+    off = [eyes_off(lab, record.angles[row], record.head[row], record.alpha[row]) for row in rows]
     assert np.median(off) < 6.0
+
+
+@pytest.mark.parametrize("alpha", [60.0, 90.0, 120.0])
+def test_eyes_that_have_time_look_straight_at_the_place(lab, alpha):
+    rest = lab.kinematics.rest
+    head = _gaze_of(lab.body).follow(rest, alpha, None)
+    assert eyes_off(lab, rest, head, alpha) == pytest.approx([0.0, 0.0], abs=0.05)
+
+
+def eyes_off(lab, angles, head, alpha):
+    """How far each eye looks past the place along S1 [deg], in a posture of arm and head."""
+    robot, model = lab.body.robot, lab.body.model
+    data, (place,) = mujoco.MjData(model), looked_at(robot, np.array([alpha]))
+    joints = [model.joint(ROBOT_PREFIX + name).qposadr[0] for name in (*robot.joints, *robot.head_joints)]
+    data.qpos[joints] = *angles, *head
+    mujoco.mj_kinematics(model, data)
+    off = []
+    for eye in robot.presence.eyes:
+        body = data.body(ROBOT_PREFIX + eye.name)
+        way = (place - body.xpos) / np.linalg.norm(place - body.xpos)
+        cosine = way @ body.xmat.reshape(3, 3) @ np.array(eye.ahead)
+        off.append(np.degrees(np.arccos(min(1.0, cosine))))
+    return off
 
 
 def test_verdicts_are_those_of_a_head_that_is_held(lab, still, champion_records, evolved_agent):
