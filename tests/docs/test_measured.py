@@ -1,0 +1,69 @@
+"""Tables of the docs against the rows that they were counted from."""
+
+import csv
+from collections import defaultdict
+from pathlib import Path
+
+DOCS = Path(__file__).parents[2] / "docs"
+AGENTS = ("best-generaliser", "best-specialist", "with-ignore")
+LOOPS = ("open", "delayed", "geometric", "camera")
+PHYSICS = (DOCS / "physics.md").read_text(encoding="utf-8")
+
+
+def rows(name):
+    lines = (DOCS / "results" / name).read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+def by(found, *names):
+    groups = defaultdict(list)
+    for row in found:
+        groups[tuple(row[name] for name in names)].append(row)
+    return groups
+
+
+def both(found):
+    """(trials that arm and robot carry out, trials that the arm does)."""
+    planar = [row for row in found if row["planar"] == "1"]
+    return sum(row["physical"] == "1" for row in planar), len(planar)
+
+
+def test_agreement_is_what_its_trials_say():
+    found = rows("agreement.csv")
+    for (instruction,), own in by(found, "instruction").items():
+        groups = by(own, "agent")
+        cells = ["{} of {}".format(*both(groups[name,])) if (name,) in groups else "-" for name in AGENTS]
+        assert f"| {instruction} | {' | '.join(cells)} |" in PHYSICS
+    for own in by(found, "agent").values():
+        carried_out, of = both(own)
+        assert f"**{carried_out} of {of}, {100 * carried_out / of:.1f} %**" in PHYSICS
+    carried_out, of = both(found)
+    assert f"of {of} trials that the planar arm carries out" in (DOCS.parent / "README.md").read_text("utf-8")
+    assert f"{carried_out} of {of} trials" in (DOCS / "article.md").read_text("utf-8")
+
+
+def test_closed_loops_are_what_their_trials_say():
+    for (agent, instruction), own in by(rows("closed-loop.csv"), "agent", "instruction").items():
+        loops = by(own, "loop")
+        planar = sum(row["planar"] == "1" for row in loops["open",])
+        counts = [sum(row["physical"] == "1" for row in loops[name,]) for name in LOOPS]
+        line = " | ".join(map(str, [len(loops["open",]), planar, *counts]))
+        assert f"| `{agent}`, {instruction} | {line} |" in PHYSICS
+
+
+def test_head_held_and_turning_are_what_their_trials_say():
+    found = rows("head.csv")
+    sums = [sum(int(row[name]) for row in found) for name in ("planar", "held", "turns")]
+    differ = sum(row["held"] != row["turns"] for row in found)
+    cells = " | ".join(f"**{n:,}**" for n in (len(found), *sums, differ))
+    assert f"| **all** | {cells} |" in PHYSICS
+
+
+def test_a_card_s_figures_are_those_of_its_benchmark():
+    page = " ".join((DOCS / "speed.md").read_text(encoding="utf-8").split())
+    found = {row["what"]: row["found"] for row in rows("device/device.csv")}
+    assert f"{found['100 runs, 8 processes, 6000 generations'].split(',')[0]} |" in page
+    assert f"{found['1000 runs, 16 processes, 3000 generations'].split(',')[0]} |" in page
+    assert f"{found['device, 1 processes'].split(';')[0]}, extrapolated" in page
+    alike = [row["found"].split() for row in rows("device/device.csv") if row["stage"] == "same bits"]
+    assert f"{sum(int(n) for n, *_ in alike)} of {sum(int(n) for _, _, n, _ in alike)} trials" in page
