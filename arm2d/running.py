@@ -65,10 +65,12 @@ def run_trials(
     outcomes, inter = empty_outcomes(len(genes), n_trials), _inter_of(genes)
 
     def run(part: slice) -> None:
+        """Let some genotypes meet all trials."""
         own = exchange.Outcomes._make(each[part] for each in outcomes)
         run_population(networks[part], arrays, world, tables, own, NO_RECORDING, inter)
 
     def run_own(part: slice) -> None:
+        """Let some genotypes meet their own trials, one after the other."""
         for p in range(part.start, part.stop):
             trials_of_p = arrays._make(each[n_trials * p : n_trials * (p + 1)] for each in arrays)
             own = exchange.Outcomes._make(each[p : p + 1] for each in outcomes)

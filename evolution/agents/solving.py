@@ -8,15 +8,14 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import Trials, run_trials
+from arm2d import run_trials
 from evolution.agents.postevaluation import POST_EVALUATION
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array, check_range
 from evolution.runs.recorded import recorded_histories
 from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
-from evolution.search.randomness import Purpose, generator
-from evolution.search.scoring import draw_evolution_trials
+from evolution.search.scoring import trials_of
 
 FILE: Final = "solved.npz"
 
@@ -84,13 +83,6 @@ def file_path(folder: RunFolder) -> Path:
     return folder.path / POST_EVALUATION.folder / FILE
 
 
-def trials_of(config: RunConfig, generation: int) -> Trials:
-    """The trials that a generation was scored in, or its first genotype."""
-    rng = generator(config.seed, Purpose.TRIALS, generation)
-    condition, per_area = config.condition, config.settings.trials_per_area
-    return draw_evolution_trials(condition.experienced, condition, per_area, config.readings, rng)
-
-
 def _most_carried_out(genotypes: NDArray[np.float64], config: RunConfig, generation: int) -> int:
-    trials = trials_of(config, generation)
+    trials, _ = trials_of(config, generation)
     return int(run_trials(genotypes, trials, config.readings).success.sum(axis=1).max())

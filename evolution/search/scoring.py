@@ -46,16 +46,19 @@ def score_population(population: Population, config: RunConfig) -> NDArray[np.fl
         ValueError: If an algorithm has asked for networks of another size than the run's.
     """
     check_genotypes(population.genotypes, config.settings.inter_neurons)
-    trials, each_own = trials_of(population, config)
+    trials, each_own = trials_of(config, population.generation, len(population.genotypes))
     scores = run_trials(population.genotypes, trials, config.readings, each_own=each_own)
     return mean_in_order(scores.fitness)
 
 
-def trials_of(population: Population, config: RunConfig) -> tuple[Trials, bool]:
-    """Fresh trials of a generation, and whether each genotype has its own: then one after the other's."""
-    rng = generator(config.seed, Purpose.TRIALS, population.generation)
+def trials_of(config: RunConfig, generation: int, n_genotypes: int = 1) -> tuple[Trials, bool]:
+    """Fresh trials of a generation, and whether each genotype has its own.
+
+    If so, they are those of the first `n_genotypes`, one after the other's.
+    """
+    rng = generator(config.seed, Purpose.TRIALS, generation)
     condition, per_area = config.condition, config.settings.trials_per_area
     each_own = config.readings.starts_shared == "genotype"
     # Drawn at once: the numbers that drawing for one after the other gives, unless places are dealt.
-    instructions = condition.experienced * (len(population.genotypes) if each_own else 1)
+    instructions = condition.experienced * (n_genotypes if each_own else 1)
     return draw_evolution_trials(instructions, condition, per_area, config.readings, rng), each_own

@@ -25,7 +25,6 @@ from evolution.agents.solving import (
     keep_solved_trials,
     read_solved_trials,
     solved_trials,
-    trials_of,
 )
 from evolution.agents.transitions import (
     TRANSITION_TEST,
@@ -42,6 +41,7 @@ from evolution.runs.recorded import recorded_histories
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
 from evolution.search.randomness import Purpose, generator
+from evolution.search.scoring import trials_of
 from evolution.search.settings import N_BEST
 
 if TYPE_CHECKING:
@@ -126,6 +126,7 @@ def both_tests_on(
     place = {each.generation: number for number, each in enumerate(tested)}
 
     def of(candidate: Candidates) -> Successes:
+        """What was found of a generation's candidates, if it had any."""
         number = place.get(candidate.generation)
         if number is None:
             return action[:0, 0], object_[:0, 0]
@@ -143,7 +144,7 @@ def solved_trials_on(laboratory: Laboratory, run: RunFolder) -> NDArray[np.int16
     solved = []
     for history in recorded_histories(run):
         groups = [
-            Group(genotypes, trials_of(run.config, int(generation)), run.config.readings)
+            Group(genotypes, trials_of(run.config, int(generation))[0], run.config.readings)
             for generation, genotypes in zip(history.generations, history.best_genotypes, strict=True)
         ]
         success = np.array(laboratory.success(groups))  # [generations, 5, trials]

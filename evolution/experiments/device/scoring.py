@@ -77,5 +77,5 @@ def _group_of(population: Population, config: RunConfig) -> Group:
     """A population with its trials: the same for all, or for each its own (reading `starts_shared`)."""
     from arm2d.device.groups import Group
 
-    trials, each_own = trials_of(population, config)
+    trials, each_own = trials_of(config, population.generation, len(population.genotypes))
     return Group(population.genotypes, trials, config.readings, each_own)

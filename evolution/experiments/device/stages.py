@@ -76,6 +76,7 @@ def test_runs_on(device: str, folders: Sequence[str]) -> int:
     tests = tests_on(device)
 
     def test(run: RunFolder) -> None:
+        """All that follows evolution."""
         tests.instructions(run)
         tests.transitions(run)
         tests.solved(run)
