@@ -60,18 +60,23 @@ def count_table(categories_: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.stack([np.bincount(column, minlength=N_CATEGORIES) for column in categories_.T], axis=1)
 
 
+def usually(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """Where successes, of 80 trials each, exceed 75 %: more than 60 trials."""
+    return 4 * successes.astype(np.int64) > 3 * TRIALS
+
+
 def masters(successes: NDArray[np.integer], condition: Condition) -> NDArray[np.bool_]:
     """Which agents [A] exceed 75 % on every experienced instruction."""
     known = [condition.instructions.index(word) for word in condition.experienced]
-    return np.all(4 * successes[:, known].astype(np.int64) > 3 * TRIALS, axis=1)
+    return usually(successes[:, known]).all(axis=1)
 
 
 def carries_out(
     successes: NDArray[np.integer], condition: Condition, instruction: Instruction
 ) -> NDArray[np.bool_]:
     """Which agents [A] exceed 75 % on every experienced instruction, and on this one besides."""
-    column = successes[:, condition.instructions.index(instruction)].astype(np.int64)
-    return masters(successes, condition) & (4 * column > 3 * TRIALS)
+    column = successes[:, condition.instructions.index(instruction)]
+    return masters(successes, condition) & usually(column)
 
 
 def classify(successes: NDArray[np.integer], condition: Condition) -> dict[AgentClass, NDArray[np.bool_]]:
@@ -81,7 +86,7 @@ def classify(successes: NDArray[np.integer], condition: Condition) -> dict[Agent
     """
     never_met = [condition.instructions.index(word) for word in NON_EXPERIENCED]
     counts = successes[:, never_met].astype(np.int64)
-    high, low = 4 * counts > 3 * TRIALS, 10 * counts < TRIALS
+    high, low = usually(counts), 10 * counts < TRIALS
     known = masters(successes, condition)
     return {
         AgentClass.FULL: known & high.all(axis=1),

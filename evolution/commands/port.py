@@ -13,7 +13,10 @@ from arm2d.tasks.task import papers_condition
 from evolution.commands.agent import AgentCommand
 
 if TYPE_CHECKING:
-    from arm2d import TrialRecord
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from arm2d import Condition, TrialRecord
     from evolution.runs.sources import Agent
 
 ALL: Final = "all"
@@ -107,19 +110,19 @@ class Port(AgentCommand):
         condition = papers_condition(source.condition, "the gallery of nine")
         records = [self._record(source, instruction) for instruction in condition.instructions]
         output = self._place(source, "gallery")
-        carried_out = sum(record.success for record in records)
-        title = f"{source.name}: nine instructions, two of them never met; {carried_out} carried out"
+        title, rates = headline(source, condition)
         if not self.acts:
-            paths = port_gallery(records, title, output, robot=self.robot, quality=self.quality)
+            paths = port_gallery(records, title, output, robot=self.robot, quality=self.quality, rates=rates)
         else:
             paths, verdicts = port_physical_gallery(
                 records,
                 source.genotype,
-                f"{title} in 2D",
+                title,
                 output,
                 robot=self.robot,
                 closed_loop=self.closed_loop,
                 quality=self.quality,
+                rates=rates,
             )
             for record, verdict in zip(records, verdicts, strict=True):
                 planar = "carried out" if record.success else "not carried out"
@@ -158,3 +161,16 @@ class Port(AgentCommand):
             check_films()
             make_folder(output.parent)
         return output
+
+
+def headline(source: Agent, condition: Condition) -> tuple[str, NDArray[np.float64]]:
+    """What stands above a gallery, and the rates [9] in its cells: one trial shows how, not how often."""
+    from evolution.agents.subtasks import usually
+    from evolution.search.evaluation import evaluate
+
+    counted = evaluate(source.genotype, condition, source.readings)
+    obeyed = usually(counted.successes[0].sum(axis=-1)).sum()
+    title = (
+        f"{source.name}: {obeyed} of nine instructions succeed in more than 75 % of {counted.trials} trials"
+    )
+    return title, counted.success[0]

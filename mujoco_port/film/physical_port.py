@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from arm2d import TrialRecord, Trials
 from models.robots import get_robot
@@ -80,6 +80,7 @@ def port_physical_gallery(
     robot: str = "icub",
     closed_loop: ClosedLoopName | None = None,
     quality: QualityName = "normal",
+    rates: ArrayLike | None = None,
 ) -> tuple[tuple[Path, Path], list[Verdict]]:
     """Let a robot with motors carry out nine trials, and write them side by side as `port_gallery` does.
 
@@ -91,14 +92,15 @@ def port_physical_gallery(
         robot: Name of a record in `models.robots`.
         closed_loop: As `port_physical_trial`.
         quality: Of the video; the picture is of high quality.
+        rates: As `port_gallery`.
 
     Returns:
         The paths of the video and of the picture, and what became of each instruction.
 
     Raises:
-        ValueError: If there are not nine records. All other errors as `port_physical_trial`.
+        ValueError: If there are not nine records, or rates. All other errors as `port_physical_trial`.
     """
-    check_gallery(records)
+    known = check_gallery(records, rates)
     path, chosen, fine = film_path(output), get_robot(robot), quality_named(quality)
     with drawing():
         from rich.progress import track
@@ -112,8 +114,8 @@ def port_physical_gallery(
             physical, verdict = _carry_out(lab, record, genotype, closed_loop)
             takes.append(physical_take(record, physical, verdict, genotype))
             verdicts.append(verdict)
-        title += f", {sum(verdict.success for verdict in verdicts)} by the robot"
-        return (path, write_gallery(takes, chosen, title, path, fine)), verdicts
+        title += f"; the robot carries out {sum(verdict.success for verdict in verdicts)} of those shown"
+        return (path, write_gallery(takes, chosen, title, path, fine, known)), verdicts
 
 
 def _carry_out(

@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from arm2d import TrialRecord
 from arm2d.films import find_encoder, write_png
@@ -67,6 +68,7 @@ def port_gallery(
     *,
     robot: str = "icub",
     quality: QualityName = "normal",
+    rates: ArrayLike | None = None,
 ) -> tuple[Path, Path]:
     """Play nine recorded trials side by side and write them as an MP4, and its last picture as a PNG.
 
@@ -76,14 +78,16 @@ def port_gallery(
         output: The video; its folder has to be there, and the picture will lie beside it.
         robot: Name of a record in `models.robots`.
         quality: Of the video; the picture is of high quality.
+        rates: [9], how often each instruction is carried out on the plane, from 0 to 1, such as
+            `Agent.evaluate().success[0]`: one trial shows how, not how often.
 
     Returns:
         The paths of the video and of the picture.
 
     Raises:
-        ValueError: If there are not nine records. All other errors as `port_trial`.
+        ValueError: If there are not nine records, or rates. All other errors as `port_trial`.
     """
-    check_gallery(records)
+    known = check_gallery(records, rates)
     path, chosen, fine = film_path(output), get_robot(robot), quality_named(quality)
     with drawing():
         from mujoco_port.film.gallery import write_gallery
@@ -91,13 +95,19 @@ def port_gallery(
         from mujoco_port.film.take import kinematic_take
 
         takes = [kinematic_take(record, chosen, FRAMES_PER_STEP) for record in records]
-        return path, write_gallery(takes, chosen, title, path, fine)
+        return path, write_gallery(takes, chosen, title, path, fine, known)
 
 
-def check_gallery(records: Sequence[TrialRecord]) -> None:
-    """Refuse all but nine trials with a ValueError."""
+def check_gallery(records: Sequence[TrialRecord], rates: ArrayLike | None) -> NDArray[np.float64] | None:
+    """The rates [9], if known; all but nine trials and nine shares are refused by a ValueError."""
     if len(records) != N_GALLERY:
         raise ValueError(f"a gallery has {N_GALLERY} trials, not {len(records)}; give one per instruction")
+    if rates is None:
+        return None
+    known = np.asarray(rates, np.float64)
+    if known.shape != (N_GALLERY,) or not ((known >= 0.0) & (known <= 1.0)).all():
+        raise ValueError(f"rates {known} are not {N_GALLERY} shares from 0 to 1; give one per instruction")
+    return known
 
 
 def port_picture(

@@ -2,11 +2,15 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
+from arm2d import Instruction, draw_trials, run_trials
 from evolution.agents.recording import record_instruction
+from evolution.commands.port import headline
 from evolution.runs.sources import find_agent
-from mujoco_port.film.gallery import CELL_WIDTH, CLOCK, STRIP, VIEW_HEIGHT, cell_pictures
+from evolution.search.randomness import Purpose, generator
+from mujoco_port.film.gallery import CELL_WIDTH, CLOCK, RATE_BAR, STRIP, VIEW_HEIGHT, cell_pictures, strip
 from mujoco_port.film.physical_port import port_physical_gallery, start_of
 from mujoco_port.film.quality import QUALITIES
 from mujoco_port.film.stage import Stage
@@ -55,6 +59,32 @@ def test_a_cell_ends_with_the_verdicts_of_both_worlds(agent, record, stage, lab)
     assert (both < 128).all(axis=-1).sum() > (one < 128).all(axis=-1).sum()
     assert (both != other).any()
     assert (both[:, :2] > 200).all()  # nothing is cut off
+
+
+@pytest.mark.parametrize("rate", [0.0, 0.4625, 1.0])
+def test_the_bar_of_a_cell_is_as_long_as_its_rate(rate):
+    left, width = (round(share * (CELL_WIDTH - CLOCK)) for share in RATE_BAR)
+    told = strip(Instruction.parse("touch green"), rate)
+    bar = (told[STRIP // 2, left : left + width] < 128).all(axis=-1)
+    assert bar.sum() == pytest.approx(rate * width, abs=2)
+    assert bar[: int(bar.sum())].all()
+
+
+def test_a_gallery_counts_trials_from_both_areas_not_those_shown(agent):
+    title, rates = headline(agent, agent.condition)
+    trials = draw_trials(agent.condition.instructions, 40, agent.readings, generator(0, Purpose.EVALUATION))
+    success = run_trials(agent.genotype, trials, agent.readings).success.reshape(9, 80)
+    np.testing.assert_array_equal(rates, success.mean(axis=1))
+    number = sum(int(row.sum()) > 60 for row in success)
+    assert 0 < number < 9
+    assert f": {number} of nine instructions succeed in more than 75 % of 80 trials" in title
+
+
+@pytest.mark.parametrize("rates", [[1.0] * 8, [1.0] * 8 + [1.01], [1.0] * 8 + [float("nan")]])
+def test_rates_that_are_none_are_refused(agent, record, rates, tmp_path):
+    with pytest.raises(ValueError, match="are not 9 shares from 0 to 1; give one per instruction"):
+        port_physical_gallery([record] * 9, agent.genotype, "nine", tmp_path / "gallery.mp4", rates=rates)
+    assert not any(tmp_path.iterdir())
 
 
 def test_too_few_trials_are_refused_before_any_is_carried_out(agent, record, tmp_path):
