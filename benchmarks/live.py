@@ -1,4 +1,4 @@
-"""`wordarm live`: how soon the page is there, and how many moments a second reach one viewer.
+"""`wordarm live`: how soon the page is there, how many moments a second reach one viewer, and what one costs.
 
 python -m benchmarks.live [seconds]
 """
@@ -13,6 +13,8 @@ import sys
 import time
 
 from websockets.sync.client import connect
+
+from arm2d import Instruction
 
 STARTS = 3
 COMMAND = [sys.executable, "-m", "evolution", "live", "best-generaliser", "--port=0"]
@@ -39,6 +41,51 @@ def main() -> None:
     print(f"the same, with its end:          {cpu_of_a_start:.1f} s of CPU")
     print(f"moments to one viewer:           {moments / seconds:.1f} a second")
     print(f"a moment:                        {1000 * cpu / moments:.1f} ms of CPU")
+    for closed in (False, True):
+        print(f"while the robot acts, {'closed' if closed else 'open'} loop:")
+        for part, cost in costs_of_a_moment(closed).items():
+            print(f"  {part:<31}{cost:.1f} ms of CPU")
+
+
+def costs_of_a_moment(closed: bool) -> dict[str, float]:
+    """Milliseconds of CPU of each part of a moment of 1/25 s, the mean over whole trials."""
+    from evolution.agents.recording import record_instruction
+    from evolution.runs.sources import find_agent
+    from models.robots import get_robot
+    from mujoco_port.acting.lab import Lab
+    from mujoco_port.live.actor import Actor
+    from mujoco_port.live.orders import Again, Run, Say
+    from mujoco_port.live.posture import Posture
+    from mujoco_port.live.session import Session
+    from mujoco_port.live.trial import Start
+
+    agent, robot = find_agent("best-generaliser"), get_robot("icub")
+    instructions = agent.condition.instructions
+
+    def draw(area: str, seed: int) -> Start:
+        record = record_instruction(agent, instructions[0], "left" if area == "left" else "right", seed)
+        return Start(float(record.alpha[0]), record.discs[0])
+
+    actor = Actor(agent.name, agent.genotype, agent.readings, instructions)
+    session, posture = Session(Lab(robot), actor, draw, closed=closed), Posture(robot)
+    parts = {"physics, agent and judges": session.tick, "the state, for the panels": session.state}
+    spent, moments = dict.fromkeys((*parts, "where everything is"), 0.0), 0
+    for words in ("touch green", "move red", "indicate blue"):
+        session.do(Again())
+        session.do(Say(Instruction.parse(words)))
+        session.do(Run(True))
+        while session.running:
+            moment = None
+            for part, call in parts.items():
+                began = time.process_time()
+                made = call()
+                spent[part] += time.process_time() - began
+                moment = moment or made
+            began = time.process_time()
+            posture.poses(moment, pointing=False)
+            spent["where everything is"] += time.process_time() - began
+            moments += 1
+    return {part: 1000 * seconds / moments for part, seconds in spent.items()}
 
 
 def looked_on(address: str, seconds: float) -> int:
