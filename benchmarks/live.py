@@ -11,6 +11,7 @@ import statistics
 import subprocess
 import sys
 import time
+from itertools import pairwise
 
 from websockets.sync.client import connect
 
@@ -68,22 +69,22 @@ def costs_of_a_moment(closed: bool) -> dict[str, float]:
 
     actor = Actor(agent.name, agent.genotype, agent.readings, instructions)
     session, posture = Session(Lab(robot), actor, draw, closed=closed), Posture(robot)
-    parts = {"physics, agent and judges": session.tick, "the state, for the panels": session.state}
-    spent, moments = dict.fromkeys((*parts, "where everything is"), 0.0), 0
+    parts = ("physics, agent and judges", "the state, for the panels", "where everything is")
+    spent, moments = dict.fromkeys(parts, 0.0), 0
     for words in ("touch green", "move red", "indicate blue"):
         session.do(Again())
         session.do(Say(Instruction.parse(words)))
         session.do(Run(True))
         while session.running:
-            moment = None
-            for part, call in parts.items():
-                began = time.process_time()
-                made = call()
-                spent[part] += time.process_time() - began
-                moment = moment or made
-            began = time.process_time()
+            times = [time.process_time()]
+            moment = session.tick()
+            times.append(time.process_time())
+            session.state()
+            times.append(time.process_time())
             posture.poses(moment, pointing=False)
-            spent["where everything is"] += time.process_time() - began
+            times.append(time.process_time())
+            for part, (began, done) in zip(spent, pairwise(times), strict=True):
+                spent[part] += done - began
             moments += 1
     return {part: 1000 * seconds / moments for part, seconds in spent.items()}
 
