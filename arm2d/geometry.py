@@ -18,6 +18,14 @@ Point = tuple[float, float]
 Pose = tuple[float, float, float, float]
 
 
+def turned(alpha: float, beta: float, turns: tuple[float, float]) -> tuple[float, float]:
+    """Both angles after both turns [deg]; the joints stop at their bounds (section II)."""
+    return (
+        min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turns[0])),
+        min(c.BETA_MAX, max(c.BETA_MIN, beta + turns[1])),
+    )
+
+
 def s2_pose(alpha: float, beta: float) -> Pose:
     """J2's position and S2's unit vector."""
     a, b = radians(alpha), radians(alpha + beta)

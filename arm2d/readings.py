@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass, fields, replace
 from functools import cache
 from itertools import pairwise
 from math import degrees
+from numbers import Integral, Real
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 TURN_LATTICE = 2**44
@@ -26,8 +27,8 @@ class Readings:
     """"with a probability of 0.4". Per gene; 0.04 would make one mutation in 25 genes."""
 
     mutation_sd: float = 0.1
-    """Standard deviation of a mutation's Gaussian offset, printed as 0.1; 0.03 with probability 0.4
-    takes the same total step as 0.04 with 0.1."""
+    """Standard deviation of a mutation's Gaussian offset, printed as 0.1; 0.03 makes nearly the same total
+    step as 0.1 with a mutation probability of 0.04."""
 
     parent_scaling: Literal["raw", "cubed", "excess", "rank"] = "raw"
     """"fitness-proportional": parents are drawn in proportion to their fitness, to its cube, to its excess
@@ -48,7 +49,7 @@ class Readings:
     """"10^2.0", of which the paper says "about 4 %" of a trial; 1.0 and 0.0 are nearer to that."""
 
     object_radius: float = 5.0
-    """Only in Fig. 1b. [cm]; must stay below 11.8, or a straight S2 touching a disc is never on target."""
+    """Only in Fig. 1b. [cm]; at most 11.8: a straight S2 that touches a larger disc is never on target."""
 
     sector_half_width: float = 10.0
     """Only in Fig. 1b. [deg]; half the width of each object's sector seen from J1."""
@@ -102,11 +103,13 @@ class Readings:
         return f"Readings({', '.join(f'{name}={getattr(self, name)!r}' for name in other)})"
 
     def __post_init__(self) -> None:
+        for each in fields(self):
+            value = getattr(self, each.name)
+            _check_type(each.name, value, each.default)
+            object.__setattr__(self, each.name, _as_default(value, each.default))
         for name, allowed in choices().items():
             if getattr(self, name) not in allowed:
                 raise ValueError(f"reading {name} = {getattr(self, name)!r}; choose {' or '.join(allowed)}")
-        if isinstance(self.sector_centres, list):
-            object.__setattr__(self, "sector_centres", tuple(self.sector_centres))
         _check_geometry(self)
         _check_interval("mutation_probability", self.mutation_probability, 0.0, 1.0)
         _check_interval("mutation_sd", self.mutation_sd, 0.0, 1.0)
@@ -131,12 +134,11 @@ class Readings:
 
     def with_values(self, values: Mapping[str, Any]) -> Readings:
         """These readings with some fields replaced; see `from_mapping` for what is refused."""
-        known = {each.name: each.type for each in fields(self)}
-        for name, value in values.items():
+        known = [each.name for each in fields(self)]
+        for name in values:
             if name not in known:
                 raise ValueError(f"unknown reading {name!r}; there are {', '.join(known)}")
-            _check_type(name, value)
-        return replace(self, **{name: _as_default(name, value) for name, value in values.items()})
+        return replace(self, **values)
 
     def to_mapping(self) -> dict[str, Any]:
         """Every field as a plain value, ready for a config file."""
@@ -203,27 +205,30 @@ def _check_interval(name: str, value: float, low: float, high: float) -> None:
         raise ValueError(f"reading {name} = {shown} must lie in [{low:g}, {high:g}]")
 
 
-def _check_type(name: str, value: Any) -> None:
+def _check_type(name: str, value: Any, default: Any) -> None:
     """Refuse a value of the wrong kind before the comparisons would fail on it."""
-    default = getattr(Readings, name)
     if isinstance(default, str):
         fits = isinstance(value, str)
     elif isinstance(default, float):
-        fits = isinstance(value, (int, float)) and not isinstance(value, bool)
+        fits = _is_number(value)
     else:
-        fits = isinstance(value, (list, tuple)) and all(type(v) in (int, float) for v in value)
+        fits = isinstance(value, (list, tuple)) and all(map(_is_number, value))
     if not fits:
         raise ValueError(f"reading {name} = {value!r} is not of the kind of its default {default!r}")
     numbers = value if isinstance(value, (list, tuple)) else [value]
-    if any(isinstance(each, int) and abs(each) > LARGEST_WHOLE for each in numbers):
+    if any(isinstance(each, Integral) and abs(each) > LARGEST_WHOLE for each in numbers):
         raise ValueError(f"reading {name} holds a number that no float can hold; its default is {default!r}")
 
 
-def _as_default(name: str, value: Any) -> Any:
+def _is_number(value: Any) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def _as_default(value: Any, default: Any) -> Any:
     """A number as the kind of number the default is, so that 8 and 8.0 are written alike."""
     if isinstance(value, (list, tuple)):
         return tuple(float(each) for each in value)
-    return float(value) if isinstance(getattr(Readings, name), float) else value
+    return float(value) if isinstance(default, float) else value
 
 
 # `printed` takes the paper at its word wherever the word can run. The default does so already but

@@ -25,6 +25,7 @@ from arm2d.geometry import (
     offset_of,
     s2_pose,
     to_s2,
+    turned,
 )
 from arm2d.instructions import ActionWord, Instruction
 from arm2d.network.controller import decode
@@ -93,11 +94,10 @@ def carry_out(
     full = goal(instruction.action, r)
     first_offset = offset = offset_of(alpha, placed[target])
     for step in range(1, most_steps + 1):
-        turn1, turn2 = think(sense(alpha, beta, placed, sides, bits_heard(heard, task, step - 1), r))
-        new_alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
-        new_beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))
+        turns = think(sense(alpha, beta, placed, sides, bits_heard(heard, task, step - 1), r))
+        new_alpha, new_beta = turned(alpha, beta, turns)
         placed, sides = touch(alpha, beta, new_alpha, new_beta, placed, sides, r.object_radius)
-        turned, alpha, beta = new_alpha - alpha, new_alpha, new_beta
+        moved, alpha, beta = new_alpha - alpha, new_alpha, new_beta
         offset = offset_of(alpha, placed[target])
         in_view = sees(alpha, placed[target], r)
         if in_view:
@@ -107,8 +107,8 @@ def carry_out(
             countdown -= 1
             heard = later if countdown == 0 else heard
         collided = any(side for disc, side in enumerate(sides) if disc != target)
-        if is_good(instruction.action, offset, in_view, sides[target], turned, r):
-            run += turned if instruction.action is ActionWord.MOVE else 1.0
+        if is_good(instruction.action, offset, in_view, sides[target], moved, r):
+            run += moved if instruction.action is ActionWord.MOVE else 1.0
         elif r.run_counting == "uninterrupted":
             run = 0.0
         best = max(best, abs(run))

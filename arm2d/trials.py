@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
+from typing import Final, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +21,8 @@ from arm2d.records import brief
 from arm2d.tasks.task import AnyTask, Task, as_paper
 
 MOST_PER_AREA = 100_000
+StartArea = Literal["right", "left"]
+START_AREAS: Final[tuple[StartArea, ...]] = ("right", "left")
 
 
 @dataclass(frozen=True)
@@ -189,6 +192,17 @@ class TrialRecord:
     def fitness(self) -> float:
         """F1 + F2 + F3."""
         return float(self.scores.fitness[0, 0])
+
+
+def area_index(area: str) -> int:
+    """Which of the two start areas a name means: the place of its trial when one is drawn from each.
+
+    Raises:
+        ValueError: If there is no such area.
+    """
+    if area not in START_AREAS:
+        raise ValueError(f"unknown start area {area!r}; there are {' and '.join(START_AREAS)}")
+    return START_AREAS.index(area)
 
 
 def draw_trials(

@@ -203,8 +203,8 @@ def _papers() -> dict[Condition, Task]:
     return {condition: Task(third=_third(condition)) for condition in Condition}
 
 
-def papers_condition(task: AnyTask, what: str) -> Condition:
-    """The condition of the paper that a task is.
+def papers_condition(task: AnyTask | str, what: str) -> Condition:
+    """The condition of the paper that a task is, or its name means.
 
     Raises:
         ValueError: If it is another task, for which `what` is not made.

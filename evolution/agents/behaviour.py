@@ -16,6 +16,7 @@ from arm2d.arithmetic import sigmoid
 from arm2d.constants import MAX_STEPS
 from arm2d.geometry import in_view
 from arm2d.records import brief
+from arm2d.tasks.task import AnyTask, papers_condition
 from evolution.agents.firsts import first_row
 from evolution.search.randomness import Purpose, generator
 
@@ -80,7 +81,7 @@ class Behaviour:
 
 def record_behaviour(
     genotype: ArrayLike,
-    condition: Condition,
+    condition: AnyTask | str,
     readings: Readings,
     *,
     per_area: int = TRIALS_PER_AREA,
@@ -90,7 +91,7 @@ def record_behaviour(
 
     Args:
         genotype: [G], or of a network of another size.
-        condition: Which nine instructions.
+        condition: Which nine instructions; its name will do.
         readings: The world, which should be the one the agent evolved in.
         per_area: Trials of each instruction from each start area.
         trial_seed: Draws the trials.
@@ -98,6 +99,7 @@ def record_behaviour(
     Raises:
         ValueError: If the genotype is unsound, or there are no trials.
     """
+    condition = papers_condition(condition, "this analysis")
     trials = draw_behaviour_trials(condition, readings, per_area, trial_seed)
     records = [record_trial(genotype, trials[i], readings) for i in range(len(trials))]
     biases = decode(genotype, readings).inter_biases[0]

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from arm2d import ActionWord, Condition, LabelChanges, ObjectWord, Readings, Trials, run_trials
 from arm2d.kernel.world import WORD_CODES
 from arm2d.records import brief
+from arm2d.tasks.task import AnyTask, papers_condition
 from evolution.agents.behaviour import TRIALS_PER_AREA, draw_behaviour_trials
 
 WORDS: Final = ("action", "object")
@@ -76,7 +77,7 @@ class LesionScores:
 
 def lesion_scores(
     genotypes: ArrayLike,
-    condition: Condition,
+    condition: AnyTask | str,
     readings: Readings,
     *,
     per_area: int = TRIALS_PER_AREA,
@@ -86,7 +87,7 @@ def lesion_scores(
 
     Args:
         genotypes: [P, G], or one [G].
-        condition: Which nine instructions.
+        condition: Which nine instructions; its name will do.
         readings: The world, which should be the one the agents evolved in.
         per_area: Trials of each instruction from each start area.
         trial_seed: Draws the trials.
@@ -94,6 +95,7 @@ def lesion_scores(
     Raises:
         ValueError: If a genotype is unsound, or there are no trials.
     """
+    condition = papers_condition(condition, "the lesions")
     trials = draw_behaviour_trials(condition, readings, per_area, trial_seed)
     intact = run_trials(genotypes, trials, readings).success
     lesioned = [_success(genotypes, trials, lesion, condition, readings) for lesion in LESIONS]

@@ -15,14 +15,15 @@ from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, TrialRecord, Trials, draw_trials, record_trial, run_trials
 from arm2d.records import brief
+from arm2d.tasks.task import AnyTask, papers_condition
 from evolution.agents.firsts import first_rows
 from evolution.agents.lineage import Lineage
+from evolution.agents.subtasks import USUALLY
 from evolution.search.randomness import Purpose, generator
 
-# A skill is had above 75 %, the paper's limit for its classes of agents. It has come when 25 generations
+# A skill is had above the limit of the paper's classes of agents. It has come when 25 generations
 # of the line in a row have it, and come for good when the agent at the end and nine tenths of the rest have
 # it too: one lucky or unlucky ancestor neither makes nor undoes it. Chosen.
-MASTERED: Final = 0.75
 IN_A_ROW: Final = 25
 REST_OF_LINE: Final = 0.9
 
@@ -57,7 +58,7 @@ class Skills:
     @classmethod
     def along(cls, shares: NDArray[np.float64]) -> Skills:
         """The skills with these shares of trials, [G, C]."""
-        above = shares > MASTERED
+        above = shares > USUALLY
         in_a_row = _all_ahead(above, IN_A_ROW)
         rest = np.arange(len(shares), 0, -1)[:, np.newaxis]
         lasting = np.cumsum(above[::-1], axis=0)[::-1] >= REST_OF_LINE * rest
@@ -87,7 +88,7 @@ class LineageScores:
 
 def score_lineage(
     lineage: Lineage,
-    condition: Condition,
+    condition: AnyTask | str,
     readings: Readings,
     *,
     per_area: int = TRIALS_PER_AREA,
@@ -98,7 +99,7 @@ def score_lineage(
 
     Args:
         lineage: The line.
-        condition: Which nine instructions.
+        condition: Which nine instructions; its name will do.
         readings: The world they evolved in.
         per_area: Trials of each instruction from each start area.
         trial_seed: Draws the trials.
@@ -107,6 +108,7 @@ def score_lineage(
     Raises:
         ValueError: If there are no trials.
     """
+    condition = papers_condition(condition, "this analysis")
     trials, watched = _draw(condition, readings, per_area, trial_seed)
     distinct, success, stays = lineage.distinct, [], []
     for done, genotype in enumerate(distinct, start=1):

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from arm2d import Instruction, TrialRecord, draw_trials, record_trial
+from arm2d.trials import StartArea, area_index
 from evolution.runs.sources import Agent
 from evolution.search.randomness import Purpose, generator
 
 
 def record_instruction(
-    agent: Agent, instruction: Instruction, start_area: Literal["right", "left"], trial_seed: int
+    agent: Agent, instruction: Instruction, start_area: StartArea, trial_seed: int
 ) -> TrialRecord:
     """An agent carrying out an instruction from a freshly drawn start.
 
@@ -21,7 +20,7 @@ def record_instruction(
         trial_seed: Draws start angle and object positions.
 
     Raises:
-        ValueError: If the agent's condition has no such instruction.
+        ValueError: If the agent's condition has no such instruction, or there is no such area.
     """
     known = agent.condition.instructions
     if instruction not in known:
@@ -31,4 +30,4 @@ def record_instruction(
         )
     rng = generator(trial_seed, Purpose.RECORDING)
     trials = draw_trials([instruction], 1, agent.readings, rng, agent.condition)
-    return record_trial(agent.genotype, trials[("right", "left").index(start_area)], agent.readings)
+    return record_trial(agent.genotype, trials[area_index(start_area)], agent.readings)

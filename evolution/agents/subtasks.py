@@ -14,11 +14,13 @@ from evolution.agents.postevaluation import TRIALS
 TOUCH_GREEN, MOVE_BLUE = NON_EXPERIENCED
 SUBTASKS: Final = ("I", "II", "III", "IV")
 N_CATEGORIES: Final = 11
+# The classes of agents ask for more than this share of trials.
+USUALLY: Final = 0.75
 TRIALS_PER_CATEGORY: Final = TRIALS // (N_CATEGORIES - 1)
 
 
 class AgentClass(StrEnum):
-    """How far an agent that masters all experienced instructions generalises."""
+    """How far an agent that obeys all experienced instructions generalises."""
 
     FULL = "fully compositional"
     PARTIAL = "partially compositional"
@@ -61,11 +63,11 @@ def count_table(categories_: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 def usually(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Where successes, of 80 trials each, exceed 75 %: more than 60 trials."""
-    return 4 * successes.astype(np.int64) > 3 * TRIALS
+    """Where successes, of 80 trials each, exceed the classes' 75 %: more than 60 trials."""
+    return successes > USUALLY * TRIALS
 
 
-def masters(successes: NDArray[np.integer], condition: Condition) -> NDArray[np.bool_]:
+def obeys_experienced(successes: NDArray[np.integer], condition: Condition) -> NDArray[np.bool_]:
     """Which agents [A] exceed 75 % on every experienced instruction."""
     known = [condition.instructions.index(word) for word in condition.experienced]
     return usually(successes[:, known]).all(axis=1)
@@ -76,7 +78,7 @@ def carries_out(
 ) -> NDArray[np.bool_]:
     """Which agents [A] exceed 75 % on every experienced instruction, and on this one besides."""
     column = successes[:, condition.instructions.index(instruction)]
-    return masters(successes, condition) & usually(column)
+    return obeys_experienced(successes, condition) & usually(column)
 
 
 def classify(successes: NDArray[np.integer], condition: Condition) -> dict[AgentClass, NDArray[np.bool_]]:
@@ -87,7 +89,7 @@ def classify(successes: NDArray[np.integer], condition: Condition) -> dict[Agent
     never_met = [condition.instructions.index(word) for word in NON_EXPERIENCED]
     counts = successes[:, never_met].astype(np.int64)
     high, low = usually(counts), 10 * counts < TRIALS
-    known = masters(successes, condition)
+    known = obeys_experienced(successes, condition)
     return {
         AgentClass.FULL: known & high.all(axis=1),
         AgentClass.PARTIAL: known & (high.sum(axis=1) == 1) & (low.sum(axis=1) == 1),

@@ -33,7 +33,7 @@ from arm2d import (
 from arm2d.records import brief
 from evolution.agents.parts import LateTest, best_genotypes, joined
 from evolution.agents.postevaluation import POST_EVALUATION, TRIALS
-from evolution.agents.subtasks import AgentClass, classify
+from evolution.agents.subtasks import AgentClass, classify, usually
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import check_array, check_range
 from evolution.search.config import RunConfig
@@ -141,7 +141,7 @@ def transition_successes(
 
 def passes(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
     """Which agents [A] pass a test: more than 75 % in every transition of it."""
-    return np.all(4 * successes > 3 * TRIALS, axis=1)
+    return usually(successes).all(axis=1)
 
 
 class Candidates(NamedTuple):

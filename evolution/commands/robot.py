@@ -43,6 +43,7 @@ class Live(AgentCommand):
     def run(self) -> int:
         """Serve the page until Ctrl-C."""
         from arm2d import Trials, draw_trials
+        from arm2d.trials import area_index
         from evolution.search.randomness import Purpose, generator
         from mujoco_port.live.actor import Actor
         from mujoco_port.live.live import show_live
@@ -52,7 +53,7 @@ class Live(AgentCommand):
 
         def draw(area: str, seed: int) -> Trials:  # as `wordarm port` does
             trials = draw_trials([instructions[0]], 1, source.readings, generator(seed, Purpose.RECORDING))
-            return trials[("right", "left").index(area)]
+            return trials[area_index(area)]
 
         show_live(
             Actor(source.name, source.genotype, source.readings, instructions),
@@ -196,13 +197,10 @@ class Workspace:
     def _certify(self, robot: Robot) -> int:
         from evolution.figures.page import save_figure
         from evolution.runs.storage import make_folder, write_arrays
-        from mujoco_port.reach.certificate import certify
+        from mujoco_port.reach.certificate import certify, check_step
         from mujoco_port.reach.certificate_figure import draw_certificate
 
-        if not self.step_deg > 0.0:
-            raise ValueError(
-                f"a step of {self.step_deg:g} degrees leads nowhere; give a positive one, at most 2.9"
-            )
+        check_step(self.step_deg)
         make_folder(self.output)
         certificate = certify(robot, step_deg=self.step_deg)
         stem = self.output / f"workspace-{robot.name}"

@@ -22,6 +22,7 @@ from evolution.figures.page import FAINT, SUCCESS_MAP, beside, head, ink_on
 FAILED: Final = "#A8A49B"
 DASHES: Final = (0, (4, 2.5))
 SHOWN_PER_AREA: Final = 10
+MARGIN: Final = 7.0  # beyond the bounds [deg], lest a line at one lie under the frame
 
 
 def trajectories_figure(behaviour: Behaviour, readings: Readings, origin: str = "") -> Figure:
@@ -56,7 +57,7 @@ def draw_alpha(axes: Axes, behaviour: Behaviour, instruction: Instruction, readi
         low, high = centre - readings.sector_half_width, centre + readings.sector_half_width
         axes.axhspan(low, high, color=OBJECT_COLOURS[object_], alpha=0.13, lw=0)
     _draw_lines(axes, behaviour, instruction, behaviour.alpha)
-    axes.set(ylim=(ALPHA_MIN, ALPHA_MAX), yticks=[30, 90, 150, 210], xticklabels=[])
+    axes.set(ylim=(ALPHA_MIN - MARGIN, ALPHA_MAX + MARGIN), yticks=[30, 90, 150, 210], xticklabels=[])
     colour = OBJECT_COLOURS[instruction.object]
     rate = f"{100 * behaviour.success[behaviour.of(instruction)].mean():.0f} %"
     never_met = ", never met" if instruction in NON_EXPERIENCED else ""
@@ -68,7 +69,7 @@ def draw_alpha(axes: Axes, behaviour: Behaviour, instruction: Instruction, readi
 def draw_beta(axes: Axes, behaviour: Behaviour, instruction: Instruction) -> None:
     """S2's angle over time in the trials of an instruction; 90 is bent, 0 straight."""
     _draw_lines(axes, behaviour, instruction, behaviour.beta)
-    axes.set(ylim=(-6, BETA_MAX + 6), yticks=[0, 90])
+    axes.set(ylim=(-MARGIN, BETA_MAX + MARGIN), yticks=[0, 90])
     _frame(axes, instruction)
 
 

@@ -18,7 +18,7 @@ from matplotlib.patches import Patch
 from arm2d.drawing import FULL, INK, STYLE, look
 from evolution.agents.subtasks import N_CATEGORIES, SUBTASKS
 from evolution.figures.generalisers import generalisers_figure
-from evolution.figures.page import FAINT, OURS, PAPER_DASHES, SERIES
+from evolution.figures.page import FAINT, OURS, PAPER_DASHES, SERIES, beside
 from evolution.figures.run import running_median
 from evolution.figures.transitions import transitions_figure
 from evolution.results import published
@@ -34,6 +34,8 @@ SUBTASK_NAMES: Final = ("the\nseven", "+ MOVE\nBlue", "+ TOUCH\nGreen", "all\nni
 # The steep rise of the first generations would leave half of the axes empty; so much of a run is not asked
 # to fit in.
 RISE: Final = 0.02
+# Lines that end nearer to each other than this look like one.
+APART: Final = 0.02
 
 
 def fitness_figure(results: Results) -> Figure:
@@ -73,9 +75,27 @@ def _draw_fitness(axes: Axes, results: ConditionResults, colours: Mapping[int, s
         axes.plot(running_median(best), lw=1.0, label=f"seed {seed}", **look)
         if first >= 0:
             axes.plot(first, best[first], "o", ms=4, mec="white", mew=0.6, zorder=4, **look)
+    _count_ends(axes, results)
     note = f"{results.at_plateau} of {len(results.runs)} runs end at 18/7"
     axes.set_title(note, loc="right", fontsize="medium", color=FAINT)
     axes.set_xlabel("generation")
+
+
+def _count_ends(axes: Axes, results: ConditionResults) -> None:
+    """How many runs end where lines lie over one another, at the right end of the lines."""
+    ends = np.sort([running_median(best)[-1] for best in results.best])
+    for group in np.split(ends, np.flatnonzero(np.diff(ends) > APART) + 1):
+        if len(group) > 1:
+            place = ("axes fraction", "data")
+            beside(
+                axes,
+                f"{len(group)} runs",
+                (1.0, group.mean()),
+                (3, 0),
+                color=FAINT,
+                va="center",
+                xycoords=place,
+            )
 
 
 def _fitness_handles(colours: Mapping[int, str]) -> list[Line2D]:

@@ -19,6 +19,7 @@ from evolution.results.wording import TITLES
 
 NEEDED: Final = 75  # [%], what has to be exceeded in every transition
 GAP: Final = 0.6  # between groups [rows]
+SHIFT: Final = 0.24  # between classes, which would hide one another [rows]
 HEIGHT: Final = 3.05  # of a condition [in]
 
 
@@ -47,12 +48,12 @@ def _draw_transitions(
 ) -> None:
     places = _places(transitions, test)
     axes.axvline(NEEDED, color=FAINT, lw=0.8, ls=PAPER_DASHES)
-    for kind, outcome in results.transitions.items():
+    for shift, (kind, outcome) in zip((-SHIFT, 0.0, SHIFT), results.transitions.items(), strict=True):
         passed, success = getattr(outcome, f"{test}_passed"), getattr(outcome, f"{test}_success")
         look = {"ms": 4, "alpha": 0.9, "color": CLASS_COLOURS[kind]}
         if outcome.agents:
             label = f"{kind}: {passed:,} of {outcome.agents:,} pass"
-            axes.plot(100 * success, places, "o", label=label, **look)
+            axes.plot(100 * success, places + shift, "o", label=label, **look)
         else:
             axes.plot([], [], "o", label=f"{kind}: no agent", **look)
     axes.set_yticks(places, [_change(transition, test) for transition in transitions])

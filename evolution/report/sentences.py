@@ -71,7 +71,7 @@ def _generalisation(shown: dict[Condition, ConditionResults]) -> str:
             f"on both it never met ({paper} some are)."
         )
     counts = _and(f"{of(n, len(shown[c].runs))} {TITLES[c]} runs" for c, n in found.items())
-    return f"Agents that understand both instructions they never met arise in {counts} ({paper})."
+    return f"Fully compositional agents, above 75 % on all nine instructions, arise in {counts} ({paper})."
 
 
 def _difference(results: Results, shown: dict[Condition, ConditionResults]) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Instruction, ObjectWord
+from arm2d.trials import START_AREAS
 from evolution.agents.postevaluation import N_INSTRUCTIONS
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.report.columns import PlainTable
@@ -19,7 +20,6 @@ from evolution.search.randomness import Purpose, generator
 from evolution.search.settings import LARGEST_FITNESS
 from evolution.study.measures import RunMeasures
 
-AREAS: Final = ("right", "left")
 ACTIONS: Final = ("MOVE", "TOUCH", "third")
 
 
@@ -75,7 +75,7 @@ class VariantMeasures:
         known = [order.index(word) for word in self.condition.experienced]
         success = self.success_by_area[known]
         row, area = np.unravel_index(int(success.argmin()), success.shape)
-        return order[known[row]], AREAS[area], float(success.min())
+        return order[known[row]], START_AREAS[area], float(success.min())
 
 
 def group(measured: Iterable[tuple[str, RunMeasures]]) -> list[VariantMeasures]:
@@ -183,7 +183,7 @@ def run_table(variants: Sequence[VariantMeasures]) -> PlainTable[MeasuredRun]:
             instruction, area
         )
         for instruction in range(N_INSTRUCTIONS)
-        for area, name in enumerate(AREAS)
+        for area, name in enumerate(START_AREAS)
     }
     return PlainTable(
         {

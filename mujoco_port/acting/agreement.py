@@ -24,11 +24,11 @@ from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
 from arm2d.cache import sources_digest
 from arm2d.files import handle_to_append, read_file, write_whole
 from arm2d.records import brief
+from arm2d.trials import START_AREAS
 from models.robots import get_robot
 
 Loop = Literal["open", "delayed", "geometric", "camera"]
 Head = Literal["turns", "held"]
-AREAS: Final = ("right", "left")
 MARK: Final = "# "
 LARGEST: Final = 256 * 2**20  # [bytes], a million trials
 # Whose code decides what becomes of a trial in either world.
@@ -102,7 +102,7 @@ def jobs(agents: Sequence[Candidate], loops: Sequence[Loop], n_starts: int, seed
         for loop in loops:
             for t in range(len(trials)):
                 area, start = divmod(t % (2 * n_starts), n_starts)
-                listed.append(Job(agent, loop, trials[t], AREAS[area], start))
+                listed.append(Job(agent, loop, trials[t], START_AREAS[area], start))
     return listed
 
 

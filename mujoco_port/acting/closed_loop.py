@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Task
 from arm2d import constants as c
+from arm2d.geometry import turned
 from arm2d.reference import LEFT, PAPERS, RIGHT, Side, controller, sense
 from arm2d.tasks.hearing import bits_heard
 from mujoco_port.acting.contacts import LEFT_SIDE, RIGHT_SIDE
@@ -68,12 +69,7 @@ class ClosedLoop:
         words = bits_heard(self.heard, self._task, len(self.sensed))
         inputs = sense(alpha, beta, places, sides, words, self._readings)
         self.sensed.append(inputs)
-        turn1, turn2 = self._think(inputs)
-        self._here, (alpha, beta) = self._next, self._next
-        self._next = (
-            min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1)),
-            min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2)),
-        )
+        self._here, self._next = self._next, turned(*self._next, self._think(inputs))
         return self._next
 
 

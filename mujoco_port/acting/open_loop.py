@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Task
 from arm2d import constants as c
-from arm2d.geometry import Point
+from arm2d.geometry import Point, turned
 from arm2d.reference import PAPERS, Side, controller, sense, touch
 from arm2d.tasks.hearing import bits_heard
 from mujoco_port.acting.rollout import Angles, PhysicalRecord
@@ -58,9 +58,7 @@ class PlanarAgent:
         inputs = sense(alpha, beta, self.places, self.sides, words, readings)
         self._steps += 1
         self._turns.append(self._think(inputs))
-        turn1, turn2 = self._turns.popleft()
-        self.alpha = min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turn1))
-        self.beta = min(c.BETA_MAX, max(c.BETA_MIN, beta + turn2))
+        self.alpha, self.beta = turned(alpha, beta, self._turns.popleft())
         self.turned = self.alpha - alpha
         self.places, self.sides = touch(
             alpha, beta, self.alpha, self.beta, self.places, self.sides, readings.object_radius

@@ -81,6 +81,7 @@ class PhysicalRecord:
     Attributes:
         instruction: What was asked.
         scale: [m/cm], of the planar map.
+        step_s: [s], a physics step.
         orders: [K + 1, 2], alpha and beta in [deg] at the control steps.
         alpha: [N], direction of S1 in [deg], interpolated as the joints are.
         still: [N], whether S1 does not turn in this control step.
@@ -100,6 +101,7 @@ class PhysicalRecord:
 
     instruction: Instruction
     scale: float
+    step_s: float
     orders: NDArray[np.float64]
     alpha: NDArray[np.float64]
     still: NDArray[np.bool_]
@@ -199,7 +201,7 @@ class Carrying:
         self._joints = joints
         reach = len(body.robot.joints)
         body.start(joints[0][:reach], on_table(plane, discs), joints[0][reach:])
-        self._log = _Log(body, instruction, plane.scale)
+        self._log = _Log(body, instruction)
         self._raised, self._done, self._first = 0.0, 0, 0
 
     @property
@@ -272,9 +274,8 @@ def above_objects(body: Body, objects: NDArray[np.float64], record: PhysicalReco
 class _Log:
     """Moves the body and keeps what it measures, physics step by physics step."""
 
-    def __init__(self, body: Body, instruction: Instruction, scale: float) -> None:
-        self._body, self._skin = body, ContactSensors(body)
-        self._asked = instruction, scale
+    def __init__(self, body: Body, instruction: Instruction) -> None:
+        self._body, self._skin, self._instruction = body, ContactSensors(body), instruction
         self._filled, self.before = 0, 0  # rows, and those of them that were there before the words
         n, joints = (MOST_STEPS + 1) * body.steps_per_turn, len(body.posture)
         self._kept = {
@@ -316,7 +317,7 @@ class _Log:
 
     def followed_by(self, instruction: Instruction) -> _Log:
         """A log that goes on from here with other words; it remembers the last control step."""
-        log = _Log(self._body, instruction, self._asked[1])
+        log = _Log(self._body, instruction)
         log.before = log._filled = min(self._filled, self._body.steps_per_turn)
         for name, array in self._kept.items():
             log._kept[name][: log.before] = array[self._filled - log.before : self._filled]
@@ -325,7 +326,8 @@ class _Log:
     def record(self, orders: list[Angles], since: int = 0) -> PhysicalRecord:
         """What has been kept since a row; views, not copies."""
         kept = {name: array[since : self._filled] for name, array in self._kept.items()}
-        reach = len(self._body.robot.joints)
+        robot, step_s = self._body.robot, self._body.model.opt.timestep
+        reach = len(robot.joints)
         kept["joints"] = kept["joints"][:, :reach]
         for name, of_head in (
             ("angles", "head"),
@@ -333,4 +335,4 @@ class _Log:
             ("torques", "head_torques"),
         ):
             kept[name], kept[of_head] = kept[name][:, :reach], kept[name][:, reach:]
-        return PhysicalRecord(*self._asked, np.array(orders), **kept)
+        return PhysicalRecord(self._instruction, robot.plane.scale, step_s, np.array(orders), **kept)

@@ -27,7 +27,6 @@ from arm2d.geometry import in_view
 from mujoco_port.acting.contacts import RIGHT_SIDE
 from mujoco_port.acting.rollout import PhysicalRecord
 
-PHYSICS_STEP: Final = 0.002  # [s]
 GOOD_TIME_S: Final = DT * GOOD_STEPS_FOR_SUCCESS
 # Contacts of two hard bodies chatter. A break of at most this long is none.
 LONGEST_BREAK_S: Final = 0.02
@@ -76,7 +75,7 @@ def progress_of(record: PhysicalRecord, readings: Readings) -> tuple[NDArray[np.
     good, target = _is_good(record, readings), int(record.instruction.object)
     if record.instruction.action is ActionWord.MOVE:
         return arcs(good, bearings(record)[:, target]), readings.move_angle
-    return lengths(good), GOOD_TIME_S
+    return lengths(good, record.step_s), GOOD_TIME_S
 
 
 def bearings(record: PhysicalRecord) -> NDArray[np.float64]:
@@ -97,10 +96,10 @@ def closed(good: NDArray[np.bool_], gap: int) -> NDArray[np.bool_]:
     return whole
 
 
-def lengths(good: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """How long it has been good on end, [N] in [s]."""
+def lengths(good: NDArray[np.bool_], step_s: float) -> NDArray[np.float64]:
+    """How long it has been good on end, [N] in [s], of moments that are `step_s` [s] apart."""
     index = np.arange(1, len(good) + 1)
-    return (PHYSICS_STEP * (index - np.maximum.accumulate(np.where(good, 0, index)))).astype(np.float64)
+    return (step_s * (index - np.maximum.accumulate(np.where(good, 0, index)))).astype(np.float64)
 
 
 def arcs(good: NDArray[np.bool_], bearing: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -115,7 +114,7 @@ def _is_good(record: PhysicalRecord, readings: Readings) -> NDArray[np.bool_]:
     action, target = record.instruction.action, int(record.instruction.object)
     off = np.abs(bearings(record)[:, target] - record.alpha)
     touched = record.contact[:, target] != 0
-    right = closed((record.contact[:, target] & RIGHT_SIDE) != 0, round(LONGEST_BREAK_S / PHYSICS_STEP))
+    right = closed((record.contact[:, target] & RIGHT_SIDE) != 0, round(LONGEST_BREAK_S / record.step_s))
     if action is ActionWord.INDICATE:
         return (off < readings.indicate_cone) & ~touched
     if action is ActionWord.TOUCH:

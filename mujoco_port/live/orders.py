@@ -9,9 +9,9 @@ from math import isfinite
 from typing import Any, Final
 
 from arm2d import Instruction, ObjectWord
+from arm2d.trials import START_AREAS
 
 LONGEST: Final = 1000  # characters
-AREAS: Final = ("right", "left")
 SPEEDS: Final = (0.25, 0.5, 1.0, 2.0, 4.0)
 LARGEST_SEED: Final = 2**32 - 1
 
@@ -105,7 +105,7 @@ def _place(order: Mapping[str, Any]) -> Place:
 
 def _reset(order: Mapping[str, Any]) -> Reset:
     area, seed = order.get("area"), order.get("seed")
-    if area not in AREAS:
+    if area not in START_AREAS:
         raise ValueError("an area is right or left")
     if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed <= LARGEST_SEED:
         raise ValueError(f"a seed is a whole number from 0 to {LARGEST_SEED}")

@@ -16,13 +16,14 @@ from numpy.typing import NDArray
 from rich.progress import track
 
 from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, BETA_MIN
+from arm2d.readings import TURN_SETS
 from arm2d.records import brief
 from models.robots import Robot
 from mujoco_port.reach.clearance import Clearance
 from mujoco_port.reach.kinematics import ArmKinematics, OutOfReachError
 from mujoco_port.reach.workspace import hand_headings, hand_targets
 
-STEP_DEG: Final = 2.9  # one turn of the 2D world
+STEP_DEG: Final = TURN_SETS["degrees"][0]  # one turn of the 2D world
 REACHED: Final = 1e-6  # [m], error below which a place counts as reached
 MOST_TURN: Final = 0.15  # [rad], of a joint between neighbours of a full grid
 
@@ -110,6 +111,14 @@ class Certificate:
         return {name: np.asarray(value) for name, value in vars(self).items()}
 
 
+def check_step(step_deg: float) -> None:
+    """Refuse a grid that is none by a ValueError."""
+    if not step_deg > 0.0:
+        raise ValueError(
+            f"a step of {step_deg:g} degrees leads nowhere; give a positive one, such as {STEP_DEG:g}"
+        )
+
+
 def certify(robot: Robot, *, step_deg: float = STEP_DEG) -> Certificate:
     """Measure a robot on the grid of all (alpha, beta).
 
@@ -120,8 +129,7 @@ def certify(robot: Robot, *, step_deg: float = STEP_DEG) -> Certificate:
     Raises:
         ValueError: If `step_deg` is not positive, or nothing at all is reached.
     """
-    if not step_deg > 0.0:
-        raise ValueError(f"a step of {step_deg:g} degrees leads nowhere; give a positive one, at most 2.9")
+    check_step(step_deg)
     alpha, beta = _axis(ALPHA_MIN, ALPHA_MAX, step_deg), _axis(BETA_MIN, BETA_MAX, step_deg)
     n_joints, shape = len(robot.joints), (len(alpha), len(beta))
     low, high = ArmKinematics(robot), ArmKinematics(raised(robot))

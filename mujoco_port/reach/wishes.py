@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import ALPHA_MAX, ALPHA_MIN, BETA_MAX, BETA_MIN
+from arm2d.readings import TURN_SETS
 from models.robots import Robot
 from mujoco_port.reach.clearance import Clearance
 from mujoco_port.reach.kinematics import ArmKinematics, OutOfReachError
 from mujoco_port.reach.workspace import hand_headings, hand_targets
 
-TURN_DEG: Final = 2.9  # a step of the 2D world
+TURN_DEG: Final = TURN_SETS["degrees"][0]  # a step of the 2D world
 SWEEPS_DEG: Final = (90.0, 30.0, 20.0, 0.0)  # beta of walks from bound to bound: bent, half lifted, straight
 STRETCHES_DEG: Final = (-30.0, 30.0, 90.0, 150.0, 195.0, 210.0)  # alpha of walks from bent to straight
 # alpha at which walks begin that turn S1 while S2 stretches, and to which side: at the bounds many joints are

@@ -106,6 +106,22 @@ def test_unsound_reading_is_refused_with_what_would_be_right(values, message):
 
 
 @pytest.mark.parametrize(
+    "values", [{"object_radius": "5"}, {"sector_centres": 5}, {"turn": 2.9}, {"crossover": None}]
+)
+def test_a_value_of_another_kind_is_refused_by_the_record_itself(values):
+    with pytest.raises(ValueError, match="is not of the kind of its default"):
+        Readings(**values)
+
+
+def test_numbers_of_any_kind_make_the_same_record():
+    plain = Readings(object_radius=8.0, sector_centres=(45.0, 90.0, 135.0))
+    for radius, centres in ((8, [45, 90, 135]), (np.float64(8), tuple(np.array([45, 90, 135])))):
+        made = Readings(object_radius=radius, sector_centres=centres)
+        assert made == plain
+        assert repr(made.to_mapping()) == repr(plain.to_mapping())
+
+
+@pytest.mark.parametrize(
     ("name", "low", "high"),
     [
         ("mutation_probability", 0.0, 1.0),

@@ -4,6 +4,13 @@ import csv
 from collections import defaultdict
 from pathlib import Path
 
+import numpy as np
+
+from arm2d import Instruction, draw_trials, record_trial
+from arm2d.constants import ALPHA_MAX, ALPHA_MIN
+from evolution.runs.sources import find_agent
+from evolution.search.randomness import Purpose, generator
+
 DOCS = Path(__file__).parents[2] / "docs"
 AGENTS = ("best-generaliser", "best-specialist", "with-ignore")
 LOOPS = ("open", "delayed", "geometric", "camera")
@@ -67,3 +74,27 @@ def test_a_card_s_figures_are_those_of_its_benchmark():
     assert f"{found['device, 1 processes'].split(';')[0]}, extrapolated" in page
     alike = [row["found"].split() for row in rows("device/device.csv") if row["stage"] == "same bits"]
     assert f"{sum(int(n) for n, *_ in alike)} of {sum(int(n) for _, _, n, _ in alike)} trials" in page
+
+
+def directions(name, words):
+    """S1's angles in each of an agent's successful trials, of the 80 that `wordarm evaluate` draws."""
+    agent = find_agent(name)
+    asked = Instruction.parse(words)
+    rng = generator(0, Purpose.EVALUATION)
+    trials = draw_trials(agent.condition.instructions, 40, agent.readings, rng, agent.condition)
+    own = np.flatnonzero((trials.actions == asked.action) & (trials.objects == asked.object))
+    found = [record_trial(agent.genotype, trials[t], agent.readings) for t in own]
+    return [record.alpha for record in found if record.success]
+
+
+def test_agents_use_the_stops_as_the_page_says():
+    page = " ".join((DOCS / "results.md").read_text(encoding="utf-8").split())
+    generaliser, specialist = (directions(name, "touch blue") for name in AGENTS[:2])
+    assert f"all {len(generaliser)} and all {len(specialist)} of their successes end there" in page
+    indicating = directions("best-generaliser", "indicate blue")
+    assert f"The generaliser's {len(indicating)} successes in INDICATE Blue" in page
+    assert {alpha[-1] for alpha in (*generaliser, *specialist, *indicating)} == {ALPHA_MIN}
+    for words in ("move blue", "touch red"):
+        assert all(alpha.max() == ALPHA_MAX > alpha[-1] for alpha in directions("with-ignore", words))
+    assert {alpha[-1] for alpha in directions("with-ignore", "ignore red")} == {ALPHA_MAX}
+    assert {alpha[-1] for alpha in directions("with-ignore", "ignore green")} == {ALPHA_MIN}

@@ -90,6 +90,8 @@ def test_an_agent_can_be_tried_and_drawn():
     assert agent.origin in [text.get_text() for text in agent.heat_map(per_area=2).texts]
     with pytest.raises(ValueError, match="with-indicate has no instruction IGNORE Red"):
         agent.record("ignore red")
+    with pytest.raises(ValueError, match="unknown start area 'middle'; there are right and left"):
+        agent.record("move red", start_area="middle")  # pyright: ignore[reportArgumentType]
 
 
 def test_a_run_is_taken_wherever_a_run_folder_is(run):

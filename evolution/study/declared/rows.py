@@ -17,8 +17,16 @@ from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition, Readings
 from arm2d.records import brief
+from arm2d.trials import START_AREAS
 from evolution.agents.postevaluation import N_INSTRUCTIONS, POST_EVALUATION, TRIALS
-from evolution.agents.subtasks import MOVE_BLUE, SUBTASKS, TOUCH_GREEN, categories, classify, masters
+from evolution.agents.subtasks import (
+    MOVE_BLUE,
+    SUBTASKS,
+    TOUCH_GREEN,
+    categories,
+    classify,
+    obeys_experienced,
+)
 from evolution.agents.transitions import TRANSITION_TEST, passes
 from evolution.report.columns import PlainTable
 from evolution.results.records import PLATEAU_TOLERANCE
@@ -28,11 +36,14 @@ from evolution.search.config import RunConfig
 from evolution.search.settings import LARGEST_FITNESS, Settings
 from evolution.study.late_transitions import CLASSES, TESTS, passed_transitions
 from evolution.study.measures import measure, plateau_of, solved_of
-from evolution.study.table import ACTIONS, AREAS
+from evolution.study.table import ACTIONS
 
 READINGS: Final = tuple(each.name for each in fields(Readings))
 INSTRUCTION_COLUMNS: Final = tuple(
-    f"{action} {thing}, {area}" for action in ACTIONS for thing in ("Blue", "Green", "Red") for area in AREAS
+    f"{action} {thing}, {area}"
+    for action in ACTIONS
+    for thing in ("Blue", "Green", "Red")
+    for area in START_AREAS
 )
 # Counts of agents, in the order in which they stand in a row.
 COUNTS: Final = (
@@ -149,14 +160,14 @@ def post_evaluated_run(folder: RunFolder) -> MeasuredRun:
         first_solved=first,
         solved_late=round(share, 4),
         counts=_counts(agents, passed, folder.config.papers_condition),
-        successes=np.repeat(agents.mean(axis=0)[:, np.newaxis] / TRIALS, len(AREAS), axis=1).round(4),
+        successes=np.repeat(agents.mean(axis=0)[:, np.newaxis] / TRIALS, len(START_AREAS), axis=1).round(4),
     )
 
 
 def _counts(agents: NDArray[np.integer], passed: NDArray[np.integer], condition: Condition) -> dict[str, int]:
     """What is counted of agents with these successes [A, 9], passed [3, 2] of whom pass the transitions."""
     in_category = categories(agents, condition)  # [A, 4]
-    known, order = masters(agents, condition), condition.instructions
+    known, order = obeys_experienced(agents, condition), condition.instructions
     understood = {each: 4 * agents[:, order.index(each)].astype(int) > 3 * TRIALS for each in NON_EXPERIENCED}
     numbers = (
         len(agents),
@@ -215,7 +226,7 @@ def _run(path: Path, number: int, line: list[str]) -> MeasuredRun:
             first_solved=-1 if first == "never" else int(first),
             solved_late=float(told["share of late generations that did"]),
             counts={name: int(told[name]) for name in COUNTS},
-            successes=successes.reshape(N_INSTRUCTIONS, len(AREAS)),
+            successes=successes.reshape(N_INSTRUCTIONS, len(START_AREAS)),
         )
     except ValueError as error:
         raise ValueError(f"{path}, line {number}, cannot be understood: {error}") from None

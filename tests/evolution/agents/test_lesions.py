@@ -36,6 +36,19 @@ def compare_with_reference(genotype, heard, codes):
         assert scores.fitness[0, i] == pytest.approx(expected.f1 + expected.f2 + expected.f3, abs=1e-9)
 
 
+def test_a_conditions_name_is_as_good_as_the_condition_and_another_task_is_refused(evolved_agent):
+    named, meant = (
+        lesion_scores(evolved_agent, condition, READINGS, per_area=1)
+        for condition in ("with-indicate", INDICATE)
+    )
+    np.testing.assert_array_equal(named.lesioned, meant.lesioned)
+    watched = record_behaviour(evolved_agent, "with-indicate", READINGS, per_area=1)
+    assert watched.condition is INDICATE
+    for analysis in (lesion_scores, record_behaviour):
+        with pytest.raises(ValueError, match="is made for the paper's two conditions"):
+            analysis(evolved_agent, "with-both", READINGS, per_area=1)
+
+
 def test_exactly_the_lesioned_word_is_replaced_at_its_time():
     trials = draw_behaviour_trials(INDICATE, READINGS, 1, 0)
     own = trials[np.flatnonzero(trials.objects == ObjectWord.GREEN)]

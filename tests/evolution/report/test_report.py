@@ -318,7 +318,7 @@ def test_fully_compositional_agents_are_called_so(results):
     found = replace(results, conditions={**results.conditions, condition: replace(each, members=members)})
     sentence = result_sentences(found)[1]
     assert sentence.startswith(
-        "Agents that understand both instructions they never met arise in 1 of 2 With-Indi"
+        "Fully compositional agents, above 75 % on all nine instructions, arise in 1 of 2 With-Indi"
     )
 
 

@@ -14,7 +14,7 @@ TEN_SECONDS = 5000  # physics steps
 READINGS = Readings()
 
 
-def trial(words, n=6000, **changes):
+def trial(words, n=6000, step_s=0.002, **changes):
     """S1 at rest on the target, which nothing touches; `changes` replace what was measured."""
     instruction = Instruction.parse(words)
     bearings = np.radians([30.0, 90.0, 150.0])
@@ -34,7 +34,7 @@ def trial(words, n=6000, **changes):
         "contact": np.zeros((n, 3), np.uint8),
         "depth": np.zeros(n),
     }
-    return PhysicalRecord(instruction, 0.002, np.zeros((n // 50 + 1, 2)), **{**measured, **changes})
+    return PhysicalRecord(instruction, 0.002, step_s, np.zeros((n // 50 + 1, 2)), **{**measured, **changes})
 
 
 def touching(target, sides, n=6000):
@@ -177,3 +177,20 @@ def test_fault_in_the_moment_of_success_is_a_failure():
     contact = touching(GREEN, 0)
     contact[TEN_SECONDS - 1, BLUE] = ARM
     assert not judge(trial("indicate green", contact=contact), READINGS).success
+
+
+@pytest.mark.parametrize("step_s", [0.001, 0.002, 0.004])
+def test_ten_seconds_are_ten_seconds_whatever_a_physics_step_is(step_s):
+    needed = round(10.0 / step_s)
+    assert judge(trial("indicate red", needed, step_s), READINGS).success
+    assert not judge(trial("indicate red", needed - 1, step_s), READINGS).success
+
+
+@pytest.mark.parametrize("step_s", [0.001, 0.004])
+def test_a_break_of_twenty_milliseconds_is_none_whatever_a_physics_step_is(step_s):
+    n, gap = round(11.0 / step_s), round(0.02 / step_s)
+    for longer in (0, 1):
+        contact = np.zeros((n, 3), np.uint8)
+        contact[:, RED] = RIGHT_SIDE
+        contact[n // 2 : n // 2 + gap + longer, RED] = 0
+        assert judge(trial("touch red", n, step_s, contact=contact), READINGS).success == (longer == 0)

@@ -136,7 +136,7 @@ def test_command_fails_where_the_arm_does_not_reach(tmp_path, capsys):
     ("arguments", "sentence"),
     [
         (["--scale", "0"], "a scale of 0 m/cm is no map; give a positive one, such as 0.002"),
-        (["--step-deg", "-1"], "a step of -1 degrees leads nowhere; give a positive one, at most 2.9"),
+        (["--step-deg", "-1"], "a step of -1 degrees leads nowhere; give a positive one, such as 2.9"),
         (
             ["--scale", "9", "--step-deg", "120"],
             "'icub' reaches nothing of the workspace; choose a smaller scale",
