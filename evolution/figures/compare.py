@@ -31,7 +31,11 @@ from evolution.results.wording import TITLES
 from evolution.search.settings import LARGEST_FITNESS
 
 # Title of each panel and the key numbers in it, with their short names.
-COUNTS: Final = {AT_LIMIT: "end at 18/7", SOLVED: "solve all 28 trials", WITH_FULL: "have generalisers"}
+COUNTS: Final = {
+    AT_LIMIT: "end at 18/7",
+    SOLVED: "solve all 28 trials",
+    WITH_FULL: "fully compositional",
+}
 TOPS: Final = {top_name(name): f"sub-task {name}" for name in SUBTASKS}
 PASSES: Final = {
     pass_name(kind, word): f"{short}, {word}"

@@ -1,49 +1,73 @@
-"""Learning curves side by side: how much of the seven instructions and of those never met is carried out."""
+"""Learners side by side: how they come along on the seven, and what they make of what they never met."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import PercentFormatter
 
-from arm2d.drawing import FULL, STYLE, look
-from evolution.figures.page import SERIES, headed
+from arm2d.drawing import FULL, OBJECT_COLOURS, STYLE, look
+from evolution.figures.page import FAINT, SERIES, headed
 from evolution.results.learning import TRIALS, LearningCurve
 
 # Learning from nothing is shown at a time that a logarithmic axis has [s].
-SOONEST = 0.1
+SOONEST: Final = 0.1
+# Of the held-out instructions in a row, lest one hide the other.
+MARKERS: Final = ("o", "D")
+SHIFT: Final = 0.16
 
 
 def learning_figure(curves: Sequence[LearningCurve]) -> Figure:
-    """A panel for the seven and one for each held-out instruction; a colour a learner, a line a seed."""
-    condition = curves[0].condition
-    held_out = [str(instruction) for instruction in condition.held_out]
+    """The seven over time, a colour a learner and a line a seed; beside it both held-out ones in the end."""
+    learners = list(dict.fromkeys(curve.learner for curve in curves))
+    colours = dict(zip(learners, SERIES, strict=False))
     with look(STYLE):
-        figure = Figure(figsize=(FULL, 2.5), layout="constrained")
-        panels = figure.subplots(1, 1 + len(held_out), sharex=True, sharey=True)
-        for axes, title in zip(
-            panels, ["the seven, on average", *(f"{w}, never met" for w in held_out)], strict=True
-        ):
-            axes.set_title(title)
-            axes.set_xlabel("processor time [s]")
-        learners = list(dict.fromkeys(curve.learner for curve in curves))
-        for curve in curves:
-            _draw(panels, curve, SERIES[learners.index(curve.learner)])
-        panels[0].set(xscale="log", ylim=(-0.02, 1.02), ylabel="trials carried out")
-        panels[0].yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0))
-        handles = dict(zip(*reversed(panels[0].get_legend_handles_labels()), strict=True))
+        figure = Figure(figsize=(FULL, 2.9), layout="constrained")
+        over_time, in_the_end = figure.subplots(1, 2, width_ratios=(1.25, 1))
+        _draw_over_time(over_time, curves, colours)
+        _draw_in_the_end(in_the_end, curves, colours)
+        handles = dict(zip(*reversed(over_time.get_legend_handles_labels()), strict=True))
         figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=len(learners))
         headed(figure, "What learners make of the instructions", _origin(curves))
     return figure
 
 
-def _draw(panels: Sequence[Axes], curve: LearningCurve, colour: str) -> None:
-    """One learner's lines in all panels."""
-    time = curve.cpu.clip(min=SOONEST)
-    for axes, share in zip(panels, [curve.experienced, *curve.held_out.T], strict=True):
-        axes.plot(time, share, color=colour, lw=1.0, alpha=0.8, label=curve.learner)
+def _draw_over_time(axes: Axes, curves: Sequence[LearningCurve], colours: dict[str, str]) -> None:
+    for curve in curves:
+        time, colour = curve.cpu.clip(min=SOONEST), colours[curve.learner]
+        axes.plot(time, curve.experienced, color=colour, lw=1.0, alpha=0.8, label=curve.learner)
+    axes.set_title("the seven, on average")
+    axes.set(xscale="log", ylim=(-0.02, 1.02), xlabel="processor time [s]", ylabel="trials carried out")
+    axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0, symbol=" %"))
+
+
+def _draw_in_the_end(axes: Axes, curves: Sequence[LearningCurve], colours: dict[str, str]) -> None:
+    """A row for each learner and seed, in which its last test stands."""
+    held_out = curves[0].condition.held_out
+    for row, curve in enumerate(curves):
+        for k, (instruction, share) in enumerate(zip(held_out, curve.held_out[-1], strict=True)):
+            place = row + SHIFT * (2 * k - 1)
+            colour = OBJECT_COLOURS[instruction.object]
+            axes.plot(share, place, MARKERS[k], ms=4.5, color=colour, mec="white", mew=0.5, clip_on=False)
+    names = [f"{curve.learner}, {curve.seed}" for curve in curves]
+    axes.set_yticks(range(len(curves)), names)
+    for label, curve in zip(axes.get_yticklabels(), curves, strict=True):
+        label.set_color(colours[curve.learner])
+    axes.set_title("never met, in the last test", pad=16)
+    axes.set(xlim=(-0.03, 1.03), ylim=(len(curves) - 0.5, -0.5), xlabel="trials carried out")
+    axes.xaxis.set_major_formatter(PercentFormatter(1.0, decimals=0, symbol=" %"))
+    axes.tick_params(axis="y", length=0)
+    axes.grid(axis="y", color=FAINT, alpha=0.25, lw=0.5)
+    axes.spines["left"].set_visible(False)
+    handles = [
+        Line2D([], [], ls="", marker=MARKERS[k], color=OBJECT_COLOURS[word.object], label=str(word))
+        for k, word in enumerate(held_out)
+    ]
+    axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(-0.02, 0.98), ncols=2, borderaxespad=0.2)
 
 
 def _origin(curves: Sequence[LearningCurve]) -> str:

@@ -69,7 +69,7 @@ COLUMNS: Final = (
         PERCENT,
     ),
     Column(
-        "runs with\ngeneralists on\nall nine [%]",
+        "runs with fully\ncompositional\nagents [%]",
         lambda own: 100.0 * own.generalists,
         _published_generalisers,
         PERCENT,

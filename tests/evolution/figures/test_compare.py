@@ -65,7 +65,7 @@ def test_the_papers_numbers_stand_where_its_per_cents_are(figure, condition):
     panels = row_of(figure, condition)
     runs = {"end at 18/7": 100.0}
     if condition is Condition.WITH_INDICATE:
-        runs["have generalisers"] = 60.0
+        runs["fully compositional"] = 60.0
     assert strokes(panels[RUNS]) == runs
     shares = 100 * published.TABLE_II[condition][10] / 100_000
     expected = dict(zip([f"sub-task {name}" for name in ("I", "II", "III", "IV")], shares, strict=True))
@@ -92,7 +92,7 @@ def test_our_numbers_stand_in_their_rows_and_in_the_colour_of_their_experiment(
         expected = {
             "end at 18/7": 100 * found.at_plateau / n,
             "solve all 28 trials": 100 * (found.first_solved >= 0).mean(),
-            "have generalisers": 100 * np.mean([len(own) > 0 for own in found.generalisers]),
+            "fully compositional": 100 * np.mean([len(own) > 0 for own in found.generalisers]),
             **{f"sub-task {s}": 100 * found.share_in_top(s).mean() for s in ("I", "II", "III", "IV")},
         }
         for kind, short in zip(found.transitions, ("fully", "partially", "non-comp."), strict=True):

@@ -1,22 +1,40 @@
 import numpy as np
+import pytest
+from matplotlib.colors import to_hex
 
+from arm2d.drawing import OBJECT_COLOURS
 from evolution.figures.learning import SOONEST, learning_figure
 from tests.evolution.figures.gallery import curves
 
 
-def test_every_panel_shows_every_curve_over_its_own_time():
+def test_every_curve_is_drawn_over_its_own_time():
     found = curves()
-    panels = learning_figure(found).axes
-    assert [axes.get_title(loc="left") for axes in panels] == [
-        "the seven, on average",
-        "TOUCH Green, never met",
-        "MOVE Blue, never met",
-    ]
-    for row, axes in enumerate(panels):
-        for curve, line in zip(found, axes.lines, strict=True):
-            due = [curve.experienced, *curve.held_out.T][row]
-            np.testing.assert_array_equal(line.get_ydata(), due)
-            np.testing.assert_array_equal(line.get_xdata(), np.maximum(curve.cpu, SOONEST))
+    over_time, _ = learning_figure(found).axes
+    assert over_time.get_title(loc="left") == "the seven, on average"
+    for curve, line in zip(found, over_time.lines, strict=True):
+        np.testing.assert_array_equal(line.get_ydata(), curve.experienced)
+        np.testing.assert_array_equal(line.get_xdata(), np.maximum(curve.cpu, SOONEST))
+
+
+def test_the_last_test_of_what_was_never_met_stands_in_the_row_of_its_learner():
+    found = curves()
+    _, in_the_end = learning_figure(found).axes
+    names = [label.get_text() for label in in_the_end.get_yticklabels()]
+    assert names == ["evolution, 1", "evolution, 2", "PPO, LSTM, 1"]
+    legend = in_the_end.get_legend()
+    told = [text.get_text() for text in legend.get_texts()]
+    assert told == ["TOUCH Green", "MOVE Blue"]
+    marks = iter(in_the_end.lines)
+    for row, curve in enumerate(found):
+        for instruction, share in zip(curve.condition.held_out, curve.held_out[-1], strict=True):
+            mark = next(marks)
+            assert mark.get_xdata() == pytest.approx(share)
+            assert round(float(mark.get_ydata()[0])) == row
+            colour = OBJECT_COLOURS[instruction.object]
+            assert to_hex(mark.get_color()) == to_hex(colour)
+            assert to_hex(legend.legend_handles[told.index(str(instruction))].get_color()) == to_hex(colour)
+    assert next(marks, None) is None
+    assert len({float(share) for curve in found for share in curve.held_out[-1]}) > 1
 
 
 def test_seeds_of_a_learner_share_a_colour_and_an_entry_in_the_legend():
@@ -25,3 +43,5 @@ def test_seeds_of_a_learner_share_a_colour_and_an_entry_in_the_legend():
     assert colours[0] == colours[1] != colours[2]
     (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()] == ["evolution", "PPO, LSTM"]
+    labels = [label.get_color() for label in figure.axes[1].get_yticklabels()]
+    assert labels == colours
