@@ -55,14 +55,16 @@ def successes_by_area(
 ) -> NDArray[np.int16]:
     """Successes [5, 9, 2] of a generation's best [5, 84], each agent in trials of its own.
 
-    There are 40 trials of each instruction from the right and 40 from the left area.
+    There are 40 trials of each instruction from the right and 40 from the left area. Tasks that are not the
+    paper's are asked for all their instructions, which may be more than nine.
     """
+    instructions = config.condition.instructions
     rng = generator(config.seed, Purpose.POST_EVALUATION, generation)
-    successes = np.empty((len(genotypes), N_INSTRUCTIONS, 2), np.int16)
+    successes = np.empty((len(genotypes), len(instructions), 2), np.int16)
     for rank, genotype in enumerate(genotypes):
-        trials = draw_trials(config.condition.instructions, TRIALS_PER_AREA, config.readings, rng)
+        trials = draw_trials(instructions, TRIALS_PER_AREA, config.readings, rng, config.condition)
         success = run_trials(genotype, trials, config.readings).success
-        successes[rank] = success.reshape(N_INSTRUCTIONS, 2, TRIALS_PER_AREA).sum(axis=-1)
+        successes[rank] = success.reshape(len(instructions), 2, TRIALS_PER_AREA).sum(axis=-1)
     return successes
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition, Instruction
+from arm2d.tasks.task import AnyTask
 from evolution.agents.postevaluation import TRIALS
 
 TOUCH_GREEN, MOVE_BLUE = NON_EXPERIENCED
@@ -67,14 +68,14 @@ def usually(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
     return successes > USUALLY * TRIALS
 
 
-def obeys_experienced(successes: NDArray[np.integer], condition: Condition) -> NDArray[np.bool_]:
-    """Which agents [A] exceed 75 % on every experienced instruction."""
+def obeys_experienced(successes: NDArray[np.integer], condition: AnyTask) -> NDArray[np.bool_]:
+    """Which agents [A] exceed 75 % on every experienced instruction, of the paper or of another task."""
     known = [condition.instructions.index(word) for word in condition.experienced]
-    return usually(successes[:, known]).all(axis=1)
+    return np.all(usually(successes[:, known]), axis=1)
 
 
 def carries_out(
-    successes: NDArray[np.integer], condition: Condition, instruction: Instruction
+    successes: NDArray[np.integer], condition: AnyTask, instruction: Instruction
 ) -> NDArray[np.bool_]:
     """Which agents [A] exceed 75 % on every experienced instruction, and on this one besides."""
     column = successes[:, condition.instructions.index(instruction)]

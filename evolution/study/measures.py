@@ -1,6 +1,6 @@
 """What one run is compared by: plateau, first solution, and what its late agents make of nine instructions.
 
-L sampled generations, 5 ranks, 9 instructions, 2 start areas.
+L sampled generations, 5 ranks, I instructions (nine in the paper), 2 start areas.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from arm2d.records import brief
 from evolution.agents.firsts import NEVER, first_row
 from evolution.agents.parts import best_genotypes, late_spans
-from evolution.agents.postevaluation import N_INSTRUCTIONS, successes_by_area
+from evolution.agents.postevaluation import successes_by_area
 from evolution.agents.solving import all_solved
 from evolution.agents.subtasks import AgentClass, categories, classify
 from evolution.results.analysis import PLATEAU_SHARE
@@ -44,7 +44,7 @@ class RunMeasures:
         plateau: Median best fitness over the last sixth of its generations.
         first_solved: First generation in which one genotype carried out all its trials; -1 if none.
         solved_late: Share of the last third of generations in which one did.
-        successes: [L, 5, 9, 2], of 40 trials each, from the right and from the left area.
+        successes: [L, 5, I, 2], of 40 trials each, from the right and from the left area.
     """
 
     config: RunConfig
@@ -57,8 +57,8 @@ class RunMeasures:
 
     @property
     def at_limit(self) -> bool:
-        """Whether it ends at the paper's 2.57."""
-        return bool(ends_at_largest(self.plateau))
+        """Whether it ends at the largest fitness of its task, 2.57 in the paper."""
+        return bool(ends_at_largest(self.plateau, self.config.task.largest_fitness))
 
     @property
     def solved(self) -> bool:
@@ -67,8 +67,8 @@ class RunMeasures:
 
     @property
     def agents(self) -> NDArray[np.int16]:
-        """Successes [5 L, 9] of 80, agent by agent."""
-        return self.successes.sum(axis=-1).reshape(-1, N_INSTRUCTIONS)
+        """Successes [5 L, I] of 80, agent by agent."""
+        return self.successes.sum(axis=-1).reshape(-1, self.successes.shape[2])
 
     @property
     def top_shares(self) -> NDArray[np.float64]:
@@ -83,11 +83,11 @@ class RunMeasures:
 
     @property
     def success_by_area(self) -> NDArray[np.float64]:
-        """Share of successful trials of each instruction from each area, [9, 2]: where a run fails."""
+        """Share of successful trials of each instruction from each area, [I, 2]: where a run fails."""
         return self.successes.mean(axis=(0, 1)) / TRIALS_PER_AREA
 
 
-# Successes [L, 5, 9, 2] of the sampled generations' best.
+# Successes [L, 5, I, 2] of the sampled generations' best.
 Simulate = Callable[[RunFolder], NDArray[np.int16]]
 
 
@@ -146,7 +146,8 @@ def plateau_of(folder: RunFolder) -> float:
 
 
 def _late_successes(folder: RunFolder, simulate: Simulate) -> NDArray[np.int16]:
-    path, shape = folder.path / FILE, (len(sampled_generations(folder)), N_BEST, N_INSTRUCTIONS, 2)
+    n_instructions = len(folder.config.condition.instructions)
+    path, shape = folder.path / FILE, (len(sampled_generations(folder)), N_BEST, n_instructions, 2)
     if path.exists():
         try:
             arrays = folder.read_arrays(path)
@@ -163,9 +164,9 @@ def _late_successes(folder: RunFolder, simulate: Simulate) -> NDArray[np.int16]:
 
 
 def simulated(folder: RunFolder) -> NDArray[np.int16]:
-    """Successes [L, 5, 9, 2] of the sampled generations' best, each agent in trials of its own."""
+    """Successes [L, 5, I, 2] of the sampled generations' best, each agent in trials of its own."""
     successes = [successes_by_area(folder.config, *each) for each in sampled_best(folder)]
-    return np.array(successes, np.int16).reshape(-1, N_BEST, N_INSTRUCTIONS, 2)
+    return np.array(successes, np.int16)
 
 
 def sampled_best(folder: RunFolder) -> Iterator[tuple[int, NDArray[np.float64]]]:

@@ -167,5 +167,5 @@ def own_trials(config: RunConfig, generation: int, genotypes: NDArray[np.float64
     rng = generator(config.seed, Purpose.POST_EVALUATION, generation)
     # Drawn at once, which gives the numbers that drawing for one agent after the other gives.
     instructions = config.condition.instructions * len(genotypes)
-    trials = draw_trials(instructions, TRIALS_PER_AREA, config.readings, rng)
+    trials = draw_trials(instructions, TRIALS_PER_AREA, config.readings, rng, config.condition)
     return Group(genotypes, trials, config.readings, each_own=True)

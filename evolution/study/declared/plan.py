@@ -5,10 +5,10 @@ Runs whose row is there already are not evolved again, on whatever machine they 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Final
+from typing import Any, Final, Generic
 
 from evolution.child import reference
 from evolution.experiments.device.jobs import DeviceShares
@@ -24,55 +24,15 @@ from evolution.runs.lock import locked
 from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
 from evolution.study.declared.parts import DeclaredPart
-from evolution.study.declared.rows import MeasuredRun, measured_run, post_evaluated_run, read_rows, write_rows
+from evolution.study.declared.rows import measured_run, post_evaluated_run, read_rows, write_rows
 from evolution.study.device_measures import measure_on
 from evolution.study.late_transitions import are_tested, passed_transitions
 from evolution.study.measures import is_measured, measure
+from evolution.study.row_files import R
 
 MEASURING: Final = "measuring"
 # On a device: enough to keep it busy, few enough that rows come every few minutes.
 RUNS_AT_ONCE: Final = 256
-
-
-@dataclass(frozen=True)
-class MeasuredPlan(Plan):
-    """A plan that measures every run as soon as it is evolved, or, with `post_evaluate`, tests it whole.
-
-    Attributes:
-        known: Runs that have a measured row, of which no folder is needed.
-    """
-
-    known: Mapping[RunConfig, MeasuredRun] = field(default_factory=dict)
-
-    @property
-    def last_stage(self) -> str:
-        """What ends a run."""
-        return TESTING if self.post_evaluate else MEASURING
-
-    def standing(self, config: RunConfig) -> Standing:
-        """How far a run has come; it is done when it is measured."""
-        if row := self.known.get(config):
-            generations, name = config.settings.generations, self.variant_folder(config)
-            return Standing(
-                config, generations, row.plateau, finished=True, evolved=True, done=True, variant=name
-            )
-        standing = super().standing(config)
-        measured = self.post_evaluate or has_measures(self.path(config))
-        return replace(standing, done=standing.done and measured)
-
-    def row(self, path: Path) -> MeasuredRun:
-        """The row of a run that is done; raises ValueError if it is not."""
-        return (post_evaluated_run if self.post_evaluate else measured_run)(RunFolder.open(path))
-
-    def _stages(self, standing: Standing) -> list[Job]:
-        if self.post_evaluate:
-            return super()._stages(standing)
-        path = self.path(standing.config)
-        log = self.folder / LOGS / "measures.log"
-        which, on_device = {"folder": str(path)}, reference(measure_on)
-        function = reference(measure_with_transitions)
-        measuring = Job(standing.name, MEASURING, function, which, path, log, on_device=on_device)
-        return [measuring] if standing.evolved else [*super()._stages(standing), measuring]
 
 
 def measure_with_transitions(folder: str) -> int:
@@ -89,24 +49,98 @@ def has_measures(path: Path) -> bool:
 
 
 @dataclass(frozen=True)
-class RowFile:
+class Measurement(Generic[R]):
+    """What is measured of every run of a study, and how it is kept as a row.
+
+    Attributes:
+        job: Simulates what the row needs in a process of its own, told the run's folder; an exit code.
+        done: Whether what it simulates is there, in a run's folder.
+        row: The row of a run for which it is.
+        read: The rows of a file,
+        write: and writes them.
+        on_device: Does the same as `job` for several runs on a device, if that can be done.
+    """
+
+    job: Callable[[str], int]
+    done: Callable[[Path], bool]
+    row: Callable[[RunFolder], R]
+    read: Callable[[Path], list[R]]
+    write: Callable[[Iterable[R], Path], None]
+    on_device: Callable[..., int] | None = None
+
+
+SAMPLED: Final = Measurement(
+    measure_with_transitions, has_measures, measured_run, read_rows, write_rows, measure_on
+)
+WHOLE: Final = replace(SAMPLED, row=post_evaluated_run)
+
+
+@dataclass(frozen=True)
+class MeasuredPlan(Plan, Generic[R]):
+    """A plan that measures every run as soon as it is evolved, or, with `post_evaluate`, tests it whole.
+
+    Attributes:
+        known: Runs that have a measured row, of which no folder is needed.
+        measurement: What is measured.
+    """
+
+    known: Mapping[RunConfig, R] = field(default_factory=dict)
+    measurement: Measurement[R] = SAMPLED  # type: ignore[assignment] - what most studies measure
+
+    @property
+    def last_stage(self) -> str:
+        """What ends a run."""
+        return TESTING if self.post_evaluate else MEASURING
+
+    def standing(self, config: RunConfig) -> Standing:
+        """How far a run has come; it is done when it is measured."""
+        if row := self.known.get(config):
+            generations, name = config.settings.generations, self.variant_folder(config)
+            return Standing(
+                config, generations, row.plateau, finished=True, evolved=True, done=True, variant=name
+            )
+        standing = super().standing(config)
+        measured = self.post_evaluate or self.measurement.done(self.path(config))
+        return replace(standing, done=standing.done and measured)
+
+    def row(self, path: Path) -> R:
+        """The row of a run that is done; raises ValueError if it is not."""
+        return self.measurement.row(RunFolder.open(path))
+
+    def _stages(self, standing: Standing) -> list[Job]:
+        if self.post_evaluate:
+            return super()._stages(standing)
+        path = self.path(standing.config)
+        log = self.folder / LOGS / "measures.log"
+        function, there = reference(self.measurement.job), self.measurement.on_device
+        on_device = reference(there) if there else ""
+        measuring = Job(
+            standing.name, MEASURING, function, {"folder": str(path)}, path, log, on_device=on_device
+        )
+        return [measuring] if standing.evolved else [*super()._stages(standing), measuring]
+
+
+@dataclass(frozen=True)
+class RowFile(Generic[R]):
     """The file of a part's measured rows, which is both what is known and what is found.
 
     Attributes:
         path: Its place.
         part: Whose runs they are.
+        measurement: What is measured of them; of a part whose late agents are all tested, `WHOLE`.
     """
 
     path: Path
     part: DeclaredPart
+    measurement: Measurement[R] = SAMPLED  # type: ignore[assignment] - what most studies measure
 
-    def read(self) -> dict[RunConfig, MeasuredRun]:
+    def read(self) -> dict[RunConfig, R]:
         """Its runs, in the order of the part.
 
         Raises:
             ValueError: If it cannot be understood, or has a run of another study.
         """
-        found = {run.config: run for run in read_rows(self.path)}
+        found = {run.config: run for run in self.measurement.read(self.path)}
         if strange := next((each for each in found if each not in set(self.part.configs)), None):
             raise ValueError(
                 f"{self.path} has a row of {strange.condition}, seed {strange.seed}, that is no run of the "
@@ -114,29 +148,30 @@ class RowFile:
             )
         return {config: found[config] for config in self.part.configs if config in found}
 
-    def add(self, runs: Iterable[MeasuredRun]) -> None:
+    def add(self, runs: Iterable[R]) -> None:
         """Add runs; raises OSError if it cannot be written."""
         found = self.read() | {run.config: run for run in runs}
-        write_rows([found[config] for config in self.part.configs if config in found], self.path)
+        self.measurement.write([found[each] for each in self.part.configs if each in found], self.path)
 
-    def plan(self, folder: Path) -> MeasuredPlan:
+    def plan(self, folder: Path) -> MeasuredPlan[R]:
         """The runs of the part, with those known that have a row."""
         settings = {config.settings for config in self.part.configs}
         names = {Variant(world, own): name for world, name in self.part.names.items() for own in settings}
-        return MeasuredPlan(folder, self.part.configs, self.part.whole, names, self.read())
+        measurement: Measurement[Any] = WHOLE if self.part.whole else self.measurement
+        return MeasuredPlan(folder, self.part.configs, self.part.whole, names, self.read(), measurement)
 
-    def collect(self, plan: MeasuredPlan) -> None:
+    def collect(self, plan: MeasuredPlan[R]) -> None:
         """Add the rows of all runs of a plan that are measured by now."""
         unknown = (config for config in plan.configs if config not in plan.known)
         self.add(plan.row(plan.path(config)) for config in unknown if plan.standing(config).done)
 
 
 def carry_out(
-    rows: RowFile,
+    rows: RowFile[R],
     folder: Path,
     at_once: int,
     stop: StopRequest,
-    known: Iterable[MeasuredRun] = (),
+    known: Iterable[R] = (),
     shares: DeviceShares | None = None,
 ) -> tuple[Failure, ...]:
     """Evolve and measure all runs that have no row yet; the jobs that were given up.

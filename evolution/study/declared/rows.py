@@ -1,21 +1,19 @@
 """Measured runs as rows of one file: what the declared analysis needs of a run, and which run it was.
 
-A row names condition, seed, generations and every reading, so a run whose row is there need not be evolved
-again, on whatever machine. Axes: 4 sub-tasks, 3 classes, 2 transition tests, 9 instructions, 2 start areas.
+Axes: 4 sub-tasks, 3 classes, 2 transition tests, 9 instructions, 2 start areas.
 """
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import NON_EXPERIENCED, Condition, Readings
+from arm2d import NON_EXPERIENCED, Condition
 from arm2d.records import brief
 from arm2d.trials import START_AREAS
 from evolution.agents.postevaluation import N_INSTRUCTIONS, POST_EVALUATION, TRIALS
@@ -28,17 +26,15 @@ from evolution.agents.subtasks import (
     obeys_experienced,
 )
 from evolution.agents.transitions import TRANSITION_TEST, passes
-from evolution.report.columns import PlainTable
 from evolution.results.records import PLATEAU_TOLERANCE
 from evolution.runs.folder import RunFolder
-from evolution.runs.storage import make_folder, write_atomically
 from evolution.search.config import RunConfig
 from evolution.search.settings import LARGEST_FITNESS, Settings
 from evolution.study.late_transitions import CLASSES, TESTS, passed_transitions
 from evolution.study.measures import measure, plateau_of, solved_of
+from evolution.study.row_files import COURSE, course_of, read_table, reading_columns, readings_of, write_table
 from evolution.study.table import ACTIONS
 
-READINGS: Final = tuple(each.name for each in fields(Readings))
 INSTRUCTION_COLUMNS: Final = tuple(
     f"{action} {thing}, {area}"
     for action in ACTIONS
@@ -101,18 +97,12 @@ class MeasuredRun:
         return np.array([self.share(f"category 10 of {name}") for name in SUBTASKS])
 
 
-def _reading_columns() -> dict[str, Callable[[MeasuredRun], str]]:
-    return {name: lambda run, name=name: _text(run.config.readings.to_mapping()[name]) for name in READINGS}
-
-
 COLUMNS: Final[Mapping[str, Callable[[MeasuredRun], Any]]] = {
     "condition": lambda run: str(run.config.papers_condition),
     "seed": lambda run: run.config.seed,
     "generations": lambda run: run.config.settings.generations,
-    **_reading_columns(),
-    "plateau": lambda run: f"{run.plateau:.6f}",
-    "first generation that solved all trials": lambda run: run.first_solved if run.solved else "never",
-    "share of late generations that did": lambda run: f"{run.solved_late:.4f}",
+    **reading_columns(),
+    **COURSE,
     **{name: lambda run, name=name: run.counts[name] for name in COUNTS},
     **{
         name: lambda run, place=place: f"{run.successes.ravel()[place]:.4f}"
@@ -188,8 +178,7 @@ def write_rows(runs: Iterable[MeasuredRun], path: Path) -> None:
     Raises:
         OSError: If it cannot be written.
     """
-    make_folder(path.parent)
-    write_atomically(path, PlainTable(COLUMNS, runs).to_csv().encode())
+    write_table(COLUMNS, runs, path)
 
 
 def read_rows(path: Path) -> list[MeasuredRun]:
@@ -198,48 +187,16 @@ def read_rows(path: Path) -> list[MeasuredRun]:
     Raises:
         ValueError: If it is no such file, or a row cannot be understood.
     """
-    if not path.exists():
-        return []
-    try:
-        lines = list(csv.reader(path.read_text(encoding="utf-8").splitlines()))
-    except (OSError, ValueError, csv.Error):
-        raise ValueError(f"{path} cannot be read; it must be a file of measured rows") from None
-    if not lines or lines[0] != list(COLUMNS):
-        raise ValueError(f"{path} is no file of measured rows of this version; move it away and repeat")
-    runs = [_run(path, number, line) for number, line in enumerate(lines[1:], 2)]
-    if len({run.config for run in runs}) < len(runs):
-        raise ValueError(f"{path} holds a run twice; leave one of both rows")
-    return runs
+    return read_table(path, COLUMNS, _run)
 
 
-def _run(path: Path, number: int, line: list[str]) -> MeasuredRun:
-    """A run from a line of the file."""
-    try:
-        told = dict(zip(COLUMNS, line, strict=True))
-        readings = Readings().with_values({name: _value(name, told[name]) for name in READINGS})
-        settings = Settings(generations=int(told["generations"]))
-        first = told["first generation that solved all trials"]
-        successes = np.array([float(told[name]) for name in INSTRUCTION_COLUMNS])
-        return MeasuredRun(
-            config=RunConfig(Condition.parse(told["condition"]), int(told["seed"]), settings, readings),
-            plateau=float(told["plateau"]),
-            first_solved=-1 if first == "never" else int(first),
-            solved_late=float(told["share of late generations that did"]),
-            counts={name: int(told[name]) for name in COUNTS},
-            successes=successes.reshape(N_INSTRUCTIONS, len(START_AREAS)),
-        )
-    except ValueError as error:
-        raise ValueError(f"{path}, line {number}, cannot be understood: {error}") from None
-
-
-def _text(value: Any) -> str:
-    """A reading as text that gives it back."""
-    return " ".join(map(repr, value)) if isinstance(value, list) else str(value)
-
-
-def _value(name: str, text: str) -> Any:
-    """A reading from its text."""
-    default = getattr(Readings, name)
-    if isinstance(default, tuple):
-        return tuple(float(part) for part in text.split())
-    return float(text) if isinstance(default, float) else text
+def _run(told: Mapping[str, str]) -> MeasuredRun:
+    """A run from its row."""
+    settings = Settings(generations=int(told["generations"]))
+    successes = np.array([float(told[name]) for name in INSTRUCTION_COLUMNS])
+    return MeasuredRun(
+        config=RunConfig(Condition.parse(told["condition"]), int(told["seed"]), settings, readings_of(told)),
+        **course_of(told),
+        counts={name: int(told[name]) for name in COUNTS},
+        successes=successes.reshape(N_INSTRUCTIONS, len(START_AREAS)),
+    )
