@@ -30,7 +30,7 @@ GROUPS: Final = {
         "experiment": Entry("experiment:ExperimentCommand", "any grid of readings, settings and seeds"),
         "reproduce": Entry("reproduce:Reproduce", "the whole paper, from random genotypes to its report"),
         "status": Entry("experiment:Status", "how far runs have come, from another terminal"),
-        "study": Entry("study:StudyCommand", "which reading comes nearest to the published figures"),
+        "study": Entry("study:StudyCommand", "which reading comes nearest to the paper; what lies beyond it"),
     },
     "look": {
         "evaluate": Entry("agent:Evaluate", "an agent on all nine instructions; a run's fitness"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
 from tyro.conf import Positional, arg
 
@@ -17,8 +17,10 @@ if TYPE_CHECKING:
     from evolution.experiments.plan import Plan
     from evolution.runs.interrupt import StopRequest
     from evolution.search.config import RunConfig
+    from evolution.study.beyond.study import BeyondStudy
     from evolution.study.declared.parts import DeclaredPart
-    from evolution.study.declared.rows import MeasuredRun
+    from evolution.study.declared.plan import RowFile
+    from evolution.study.declared.study import DeclaredStudy
     from evolution.study.variants import Part
 
 # Where what a part's variants stand on was evolved for as long, with the same seeds.
@@ -27,27 +29,28 @@ BEFORE: Final = {"confirmation": "finalists"}
 
 @dataclass(frozen=True)
 class StudyCommand:
-    """Evolve under many readings of the paper and compare what each does to the published figures.
+    """Evolve under many readings of the paper and compare what each does; or evolve what lies beyond it.
 
     Repeat the command to go on; what is done is not done again. Ctrl-C loses nothing.
     """
 
-    name: Annotated[Positional[Literal["readings"]], arg(metavar="STUDY")]
-    """The study: readings, what the paper leaves open (docs/readings.md)."""
+    name: Annotated[Positional[Literal["readings", "beyond"]], arg(metavar="STUDY")]
+    """The study: readings, what the paper leaves open (docs/readings.md); or beyond, what it asks in the end:
+    other tasks, larger networks, more and less held out (docs/beyond.md)."""
 
     part: Literal[
         "screening", "finalists", "around", "confirmation", "factorial", "fresh", "less-one", "hundred"
     ] = "screening"
-    """Of the first study: screening (3000 generations, one reading at a time and the geometry in depth),
-    finalists (the whole experiment under the default and the three that came nearest to the paper), around
-    (as the screening, on top of the favoured size of mutations) and confirmation (the whole experiment under
-    the two that came nearest around it, and both together, with fresh seeds). Of the declared one
-    (docs/declaration.md): factorial (all readings mixed), fresh (the worlds it puts nearest to the paper and
-    others, with fresh seeds), less-one (the winner with one departure taken back at a time) and hundred (a
-    hundred runs of either condition under the default)."""
+    """Of the study readings. Parts of the first: screening (3000 generations, one reading at a time and the
+    geometry in depth), finalists (the whole experiment under the default and the three that came nearest to
+    the paper), around (as the screening, on top of the favoured size of mutations) and confirmation (the
+    whole experiment under the two that came nearest around it, and both together, with fresh seeds). Of the
+    declared one (docs/declaration.md): factorial (all readings mixed), fresh (the worlds it puts nearest to
+    the paper and others, with fresh seeds), less-one (the winner with one departure taken back at a time) and
+    hundred (a hundred runs of either condition under the default)."""
 
-    output: Path = Path("runs/readings")
-    """Folder of the study; each part has a folder in it."""
+    output: Path | None = None
+    """Folder of the study, by default runs/readings or runs/beyond. Each part has a folder in it."""
 
     seeds: int | None = None
     """Runs of each variant and condition, by default what the part asks for."""
@@ -70,7 +73,8 @@ class StudyCommand:
 
     rows: Path | None = None
     """File of measured rows to begin with, such as docs/results/readings/factorial.csv: its runs are not
-    evolved again. A declared part keeps the rows of all its runs in rows.csv in its folder."""
+    evolved again. A declared part keeps the rows of all its runs in rows.csv in its folder, and so does
+    beyond."""
 
     early: bool = False
     """Choose and compare with as many runs of the declared parts before as are measured by now."""
@@ -83,13 +87,15 @@ class StudyCommand:
         from evolution.runs.lock import locked
         from evolution.runs.storage import make_folder
 
+        if self.name == "beyond":
+            return self._run_beyond()
         if self.part in ("factorial", "fresh", "less-one", "hundred"):
             return self._run_declared()
         if self.rows is not None or self.early:
             raise ValueError(f"--rows and --early are for declared parts, which {self.part} is not")
         part, at_once = self._part(), processes(self.jobs)
         shares = None if self.now else device_shares(self.device, self.jobs)
-        plan = _plan(part, self.output)
+        plan = _plan(part, self._folder)
         failures = ()
         if not self.now:
             plan.check()
@@ -104,24 +110,51 @@ class StudyCommand:
             print(f"{failure.job.name}, given up while {failure.job.stage}: {failure.sentence}")
         return BAD_INPUT if failures else 0
 
+    @property
+    def _folder(self) -> Path:
+        """Of the study."""
+        return self.output or Path("runs") / self.name
+
     def _run_declared(self) -> int:
-        """Evolve and measure what has no row yet."""
+        """A declared part of the study of readings."""
+        from evolution.study.declared.study import DeclaredStudy
+
+        self._check_declared(f"the part {self.part}")
+        study = DeclaredStudy(self._folder, generations=self.generations, early=self.early)
+        return self._carry_out(study, study.part(self.part))
+
+    def _run_beyond(self) -> int:
+        """The study of what lies beyond the paper."""
+        from evolution.study.beyond.study import BeyondStudy
+
+        if self.part != StudyCommand.part or self.early:
+            raise ValueError("--part and --early are for the study readings; leave them away")
+        self._check_declared("the study beyond")
+        study = BeyondStudy(self._folder, self.generations)
+        return self._carry_out(study, study.part)
+
+    def _check_declared(self, what: str) -> None:
+        """Refuse to change what was declared."""
+        from evolution.study.measures import check_generations
+
+        if self.seeds is not None:
+            raise ValueError(f"every run of {what} has its seed; leave --seeds away")
+        if self.generations is not None:
+            check_generations(self.generations)
+
+    def _carry_out(self, study: DeclaredStudy | BeyondStudy, part: DeclaredPart) -> int:
+        """Evolve and measure what has no row yet, and write what all rows say."""
         from evolution.experiments.device.jobs import device_shares
         from evolution.experiments.plan_runner import processes
         from evolution.runs.interrupt import StopRequest
         from evolution.study.declared.plan import carry_out
-        from evolution.study.declared.study import DeclaredStudy
-        from evolution.study.measures import check_generations
 
-        if self.seeds is not None:
-            raise ValueError(f"every run of the part {self.part} has its seed; leave --seeds away")
-        if self.generations is not None:
-            check_generations(self.generations)
-        study = DeclaredStudy(self.output, generations=self.generations, early=self.early)
-        part = study.part(self.part)
-        rows, known, failures = study.rows(part), self._known(part), ()
-        shares = None if self.now else device_shares(self.device, self.jobs)
+        rows: RowFile[Any] = study.rows(part)
+        known, failures = self._known(rows), ()
         if not self.now:
+            shares = device_shares(self.device, self.jobs)
+            if shares:
+                shares.check(part.configs)
             with StopRequest() as stop:
                 at_once, folder = processes(self.jobs), rows.path.parent
                 failures = carry_out(rows, folder, at_once, stop, known.values(), shares)
@@ -129,22 +162,20 @@ class StudyCommand:
                 print("stopped; go on with the same command")
                 return INTERRUPTED
         found = known | rows.read()
-        runs = [found[config] for config in part.configs if config in found]
+        runs: list[Any] = [found[config] for config in part.configs if config in found]
         paths, notes = study.write(part, runs, self.results or rows.path.parent / "results")
         print(*paths, *notes, f"{len(runs)} of {len(part.configs)} runs are measured so far", sep="\n")
         for failure in failures:
             print(f"{failure.job.name}, given up while {failure.job.stage}: {failure.sentence}")
         return BAD_INPUT if failures else 0
 
-    def _known(self, part: DeclaredPart) -> dict[RunConfig, MeasuredRun]:
+    def _known(self, rows: RowFile[Any]) -> dict[RunConfig, Any]:
         """The runs of the file of rows to begin with, if there is one."""
-        from evolution.study.declared.plan import RowFile
-
         if self.rows is None:
             return {}
         if not self.rows.is_file():
             raise ValueError(f"there is no file {self.rows}; give one that a study of the same part wrote")
-        return RowFile(self.rows, part).read()
+        return replace(rows, path=self.rows).read()
 
     def _part(self) -> Part:
         """The part that is asked for, with the numbers of seeds and generations that are."""
@@ -170,7 +201,7 @@ class StudyCommand:
         from evolution.study.results import measured_variants
         from evolution.study.table import nearest
 
-        folder = self.output / among
+        folder = self._folder / among
         plan = read_plan(folder)
         if plan is None or not (variants := measured_variants(plan)):
             command = f"wordarm study readings --part {among}"

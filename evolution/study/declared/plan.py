@@ -141,7 +141,8 @@ class RowFile(Generic[R]):
             ValueError: If it cannot be understood, or has a run of another study.
         """
         found = {run.config: run for run in self.measurement.read(self.path)}
-        if strange := next((each for each in found if each not in set(self.part.configs)), None):
+        declared = set(self.part.configs)
+        if strange := next((each for each in found if each not in declared), None):
             raise ValueError(
                 f"{self.path} has a row of {strange.condition}, seed {strange.seed}, that is no run of the "
                 f"part {self.part.name} with these readings and generations; give another file of rows"

@@ -28,6 +28,8 @@ from evolution.results.learning import LearningCurve
 from evolution.runs.history import History
 from evolution.runs.sources import find_agent
 from evolution.search.evaluation import evaluate
+from evolution.study.beyond.answers import comparisons, groups_of
+from evolution.study.beyond.figure import cells_figure
 from evolution.study.declared.levels_figure import levels_figure
 from evolution.study.declared.outcomes import OUTCOMES
 from evolution.study.declared.regression import N_MAIN, Model, level_numbers
@@ -36,6 +38,7 @@ from evolution.study.figure import effects_figure, failures_figure
 from models.robots import ROBOTS
 from mujoco_port.film.gl import choose_back_end
 from tests.evolution.made_up import both_conditions
+from tests.evolution.study.beyond.made_up import made_study
 from tests.evolution.study.declared.synthetic import CONFIGS, made_up
 
 choose_back_end()  # before anything imports mujoco: other tests draw in this process
@@ -183,5 +186,6 @@ FIGURES = {
     "failures": lambda: failures_figure(screening()),
     "failures-on-top": lambda: failures_figure(on_top(), variant("mutation-sd-0.03")),
     "levels": lambda: levels_figure(models(), "What each reading does when all are mixed", "300 runs"),
+    "beyond": lambda: cells_figure(cells := groups_of(made_study(range(201, 209))), comparisons(cells)),
     "workspace": lambda: draw_certificate(certificate(), ROBOTS["icub"]),
 }
