@@ -216,7 +216,7 @@ def _check_type(name: str, value: Any, default: Any) -> None:
     if not fits:
         raise ValueError(f"reading {name} = {value!r} is not of the kind of its default {default!r}")
     numbers = value if isinstance(value, (list, tuple)) else [value]
-    if any(isinstance(each, Integral) and abs(each) > LARGEST_WHOLE for each in numbers):
+    if any(isinstance(each, Integral) and abs(int(each)) > LARGEST_WHOLE for each in numbers):
         raise ValueError(f"reading {name} holds a number that no float can hold; its default is {default!r}")
 
 

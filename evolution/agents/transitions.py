@@ -141,7 +141,7 @@ def transition_successes(
 
 def passes(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
     """Which agents [A] pass a test: more than 75 % in every transition of it."""
-    return usually(successes).all(axis=1)
+    return np.all(usually(successes), axis=1)
 
 
 class Candidates(NamedTuple):

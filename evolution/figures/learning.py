@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 from matplotlib.axes import Axes
@@ -36,7 +36,7 @@ def learning_figure(curves: Sequence[LearningCurve]) -> Figure:
     return figure
 
 
-def _draw_over_time(axes: Axes, curves: Sequence[LearningCurve], colours: dict[str, str]) -> None:
+def _draw_over_time(axes: Axes, curves: Sequence[LearningCurve], colours: Mapping[str, str]) -> None:
     for curve in curves:
         time, colour = curve.cpu.clip(min=SOONEST), colours[curve.learner]
         axes.plot(time, curve.experienced, color=colour, lw=1.0, alpha=0.8, label=curve.learner)
@@ -45,7 +45,7 @@ def _draw_over_time(axes: Axes, curves: Sequence[LearningCurve], colours: dict[s
     axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0, symbol=" %"))
 
 
-def _draw_in_the_end(axes: Axes, curves: Sequence[LearningCurve], colours: dict[str, str]) -> None:
+def _draw_in_the_end(axes: Axes, curves: Sequence[LearningCurve], colours: Mapping[str, str]) -> None:
     """A row for each learner and seed, in which its last test stands."""
     held_out = curves[0].condition.held_out
     for row, curve in enumerate(curves):
