@@ -165,23 +165,28 @@ def _cheapest_first(
 ) -> list[NDArray[np.int64]]:
     """Rows [F] of levels: the ends of descents from random draws, the cheapest first, then these draws."""
     drawn = [starts + rng.integers(0, sizes) for _ in range(RESTARTS)]
-    ends = [_descend(row.copy(), price, starts, sizes) for row in drawn]
+    ranges = [range(start, start + size) for start, size in zip(starts.tolist(), sizes, strict=True)]
+    prices = price.tolist()  # Python's own numbers: as exact, and quicker one by one
+    ends = [np.array(_descend(row.tolist(), prices, ranges)) for row in drawn]
     return sorted(ends, key=lambda row: int(price[np.ix_(row, row)].sum())) + drawn
 
 
-def _descend(
-    row: NDArray[np.int64], price: NDArray[np.int64], starts: NDArray[np.int64], sizes: Sequence[int]
-) -> NDArray[np.int64]:
+def _descend(row: list[int], prices: Sequence[Sequence[int]], ranges: Sequence[range]) -> list[int]:
     """Move factor after factor to its cheapest level, beside those of the others, until none moves."""
+    beside = [
+        sum(of_level[other] for other in row) for of_level in prices
+    ]  # [L], of each beside all in the row
     moved = True
     while moved:
         moved = False
-        for factor, (start, size) in enumerate(zip(starts, sizes, strict=True)):
-            own = np.arange(start, start + size)
-            others = np.delete(row, factor)
+        for factor, levels in enumerate(ranges):
+            now = row[factor]
             # A pair stands twice in the price, a level by itself once.
-            costs = 2 * price[np.ix_(own, others)].sum(axis=1) + price[own, own]
-            best = own[costs.argmin()]
-            if costs[best - start] < costs[row[factor] - start]:
+            costs = {
+                level: 2 * (beside[level] - prices[level][now]) + prices[level][level] for level in levels
+            }
+            best = min(levels, key=costs.__getitem__)
+            if costs[best] < costs[now]:
+                beside = [sum_ + of[best] - of[now] for sum_, of in zip(beside, prices, strict=True)]
                 row[factor], moved = best, True
     return row
