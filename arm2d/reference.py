@@ -37,6 +37,8 @@ from arm2d.tasks.task import Task
 TOUCH, SECTORS, BEND, WORDS = range(2), (range(2, 5), range(5, 8), range(8, 11)), range(11, 12), range(12, 18)
 # Whose words sound as in the paper: all of its, for INDICATE and IGNORE share a code there.
 PAPERS: Final = Task()
+# How much of a step has been made at the end of each sub-step.
+SUB_STEPS: Final = tuple(k / c.SUB_STEPS for k in range(1, c.SUB_STEPS + 1))
 RIGHT: Final = "right"
 LEFT: Final = "left"
 
@@ -124,7 +126,7 @@ def controller(genotype: ArrayLike, readings: Readings) -> Callable[[Sequence[fl
     sensory, recurrent, motor = (each[0].tolist() for each in weights)
     tau, bias = net.decay_constants[0].tolist(), net.inter_biases[0].tolist()
     input_bias, motor_bias, gain = float(net.input_bias[0]), float(net.motor_bias[0]), float(net.gain[0])
-    inter = range(len(tau))
+    inter, motors, size = range(len(tau)), range(c.N_MOTORS), readings.turn_size
     y = [0.0] * len(tau)
     z = [sigmoid(y[k] + bias[k]) for k in inter]
 
@@ -132,20 +134,23 @@ def controller(genotype: ArrayLike, readings: Readings) -> Callable[[Sequence[fl
     def sensory_neuron(value: float) -> float:
         return sigmoid(gain * value + input_bias)  # eq. 1
 
-    @cache  # what is sensed is often what was sensed before
-    def drive(inputs: tuple[float, ...], j: int) -> float:
-        s = [sensory_neuron(value) for value in inputs]
+    def drive(s: Sequence[float], j: int) -> float:
         touch, bend, words = (_dot(sensory, s, j, group) for group in (TOUCH, BEND, WORDS))
         right, middle, left = (_dot(sensory, s, j, sector) for sector in SECTORS)
         return words + touch + (right + middle + left) + bend
 
+    @cache  # what is sensed is often what was sensed before
+    def drives(inputs: tuple[float, ...]) -> list[float]:
+        s = [sensory_neuron(value) for value in inputs]
+        return [drive(s, j) for j in inter]
+
     def think(inputs: Sequence[float]) -> tuple[float, float]:
-        felt = tuple(inputs)
+        driven = drives(tuple(inputs))
         for j in inter:
-            y[j] += c.DT / tau[j] * (drive(felt, j) + _dot(recurrent, z, j, inter) - y[j])  # eq. 2
+            y[j] += c.DT / tau[j] * (driven[j] + _dot(recurrent, z, j, inter) - y[j])  # eq. 2
         z[:] = [sigmoid(y[k] + bias[k]) for k in inter]
-        f = [sigmoid(_dot(motor, z, m, inter) + motor_bias) for m in range(c.N_MOTORS)]  # eq. 3
-        return _turn(f[0], f[1], readings.turn_size), _turn(f[2], f[3], readings.turn_size)
+        f = [sigmoid(_dot(motor, z, m, inter) + motor_bias) for m in motors]  # eq. 3
+        return _turn(f[0], f[1], size), _turn(f[2], f[3], size)
 
     return think
 
@@ -193,12 +198,11 @@ def sense(
 
 def _seen_interval(alpha: float, centre: Point, r: Readings) -> tuple[float, float]:
     """From where to where the camera sees a disc, relative to its direction [deg]."""
-    if r.camera_origin == "end":
-        offset, distance = offset_from_end(alpha, centre), distance_from_end(alpha, centre)
-    else:
-        offset, distance = bearing_of(centre) - alpha, hypot(*centre)
+    from_end = r.camera_origin == "end"
+    offset = offset_from_end(alpha, centre) if from_end else bearing_of(centre) - alpha
     if r.object_vision == "centre":
         return offset, offset
+    distance = distance_from_end(alpha, centre) if from_end else hypot(*centre)
     if distance <= r.object_radius:
         return -180.0, 180.0
     half = degrees(asin(r.object_radius / distance))
@@ -222,26 +226,28 @@ def touch(
 ) -> tuple[list[Point], list[Side]]:
     """Carry, push or leave every disc while the arm moves in four sub-steps (spec section 3)."""
     discs, sides = list(discs), list(sides)
+    moved, bent = alpha1 - alpha0, beta1 - beta0
+    hitting, touching = radius - c.PENETRATION_TOLERANCE, radius + c.TOUCH_TOLERANCE
     pose = s2_pose(alpha0, beta0)
-    for k in range(1, c.SUB_STEPS + 1):
-        last, part = pose, k / c.SUB_STEPS
-        pose = s2_pose(alpha0 + (alpha1 - alpha0) * part, beta0 + (beta1 - beta0) * part)
+    for part in SUB_STEPS:
+        last = pose
+        if moved or bent:
+            pose = s2_pose(alpha0 + moved * part, beta0 + bent * part)
         for disc, centre in enumerate(discs):
             u, v = to_s2(pose, centre)
-            beyond = max(0.0, u - c.S2_LENGTH, -u)
+            beyond = 0.0 if 0.0 <= u <= c.S2_LENGTH else max(-u, u - c.S2_LENGTH)
             gap = hypot(beyond, v)
-            hit = gap < radius - c.PENETRATION_TOLERANCE
-            if hit and sides[disc]:
+            if gap > touching:
+                sides[disc] = None
+            elif gap >= hitting:
+                sides[disc] = RIGHT if v < 0.0 else LEFT
+            elif sides[disc]:
                 discs[disc] = from_s2(pose, *to_s2(last, centre))
-            elif hit:
+            else:
                 _, v0 = to_s2(last, centre)
                 sides[disc] = RIGHT if v0 < 0.0 else LEFT
                 v = sqrt(radius * radius - beyond * beyond)
                 discs[disc] = from_s2(pose, u, -v if v0 < 0.0 else v)
-            elif gap <= radius + c.TOUCH_TOLERANCE:
-                sides[disc] = RIGHT if v < 0.0 else LEFT
-            else:
-                sides[disc] = None
     return discs, sides
 
 

@@ -42,7 +42,7 @@ SEEN_FROM_THE_END = [
     {"object_vision": "any_part", "object_radius": 11.8},
     {"f3_time": "best", "bound_vision": "near", "object_radius": 10.0, "start_areas": "bounds"},
 ]
-TRIALS_PER_ALTERNATIVE = -(-20_000 // len(ALTERNATIVES))
+TRIALS_PER_ALTERNATIVE = -(-10_000 // len(ALTERNATIVES))
 
 
 def genotypes_of(evolved, n, rng):
@@ -76,7 +76,7 @@ def changes_of(trials, t):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("alternative", ALTERNATIVES, ids=str)
-def test_kernel_and_reference_agree_on_twenty_thousand_trials_of_all_readings(alternative, evolved):
+def test_kernel_and_reference_agree_on_ten_thousand_trials_of_all_readings(alternative, evolved):
     readings = Readings().with_values(alternative)
     rng = np.random.default_rng([7, ALTERNATIVES.index(alternative)])
     for condition in Condition:
