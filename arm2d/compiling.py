@@ -35,6 +35,8 @@ def compiled(function: Callable | None = None, *, allocates: bool = True, **opti
         return lambda function: compiled(function, allocates=allocates, **options)
     if not allocates:
         options["_nrt"] = False
+    # Nobody takes one of them for a C function: what would make it one need not be compiled.
+    options["no_cfunc_wrapper"] = True
     dispatcher = numba.njit(function, error_model="numpy", **options)
     if (folder := cache_folder()) is not None:
         _keep(dispatcher, function, folder)

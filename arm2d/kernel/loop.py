@@ -100,7 +100,8 @@ def _run_network(
     touch, camera, bend, words = drives
     n_trials, objects = len(trials.action), trials.object
     changing, in_sequence = _any_other(trials.delay, NO_CHANGE), _any_other(trials.word_steps, 0)
-    active, waiting = 0, 0
+    # To Numba a bare 0 is of a type of its own, for which it would compile all that is called here once more.
+    active, waiting = int(0), int(0)  # noqa: RUF046, UP018
     while active < N_LANES and waiting < n_trials:
         _start(lanes, active, waiting, network, trials, world, words)
         active, waiting = active + 1, waiting + 1
@@ -127,7 +128,7 @@ def _run_network(
         steps += 1
         if score_step(s, n, width, world.keep, world.from_end) == 0:
             continue
-        i = 0
+        i = int(0)  # noqa: RUF046, UP018
         while i < active:
             if n[at.DONE + i] == 0:
                 i += 1
