@@ -6,7 +6,7 @@ Each field's documentation gives the paper's words first, then the readings.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from itertools import pairwise
 from math import degrees
@@ -142,7 +142,8 @@ class Readings:
 
     def to_mapping(self) -> dict[str, Any]:
         """Every field as a plain value, ready for a config file."""
-        return {**asdict(self), "sector_centres": list(self.sector_centres)}
+        values = {each.name: getattr(self, each.name) for each in fields(self)}
+        return {**values, "sector_centres": list(self.sector_centres)}
 
     @property
     def turn_size(self) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from math import prod
 from typing import Any, Final
 
@@ -106,14 +107,15 @@ def world_of(levels: Sequence[str], factors: Sequence[Factor] = FACTORS) -> Read
 DECLARED_DEFAULT: Final = world_of([next(iter(factor.levels)) for factor in FACTORS])
 
 
-def levels_of(world: Readings, factors: Sequence[Factor] = FACTORS) -> tuple[str, ...]:
+@cache  # asked for row by row and column by column
+def levels_of(world: Readings) -> tuple[str, ...]:
     """The level of every factor in a world.
 
     Raises:
         ValueError: If the world has another value of some reading.
     """
     found = []
-    for factor in factors:
+    for factor in FACTORS:
         fitting = [
             level
             for level, values in factor.levels.items()
