@@ -22,6 +22,11 @@ if threading.current_thread() is threading.main_thread():
             signal.signal(number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL)
 
 
+def pytest_xdist_auto_num_workers() -> int:
+    """One more worker than there are processors: some tests wait for programs, and others can go on then."""
+    return len(os.sched_getaffinity(0)) + 1
+
+
 @pytest.fixture(scope="session")
 def evolved() -> np.ndarray:
     """Genotypes [60, 84] of evolved agents: random ones seldom touch anything."""

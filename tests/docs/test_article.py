@@ -11,6 +11,7 @@ from arm2d import Readings
 DOCS = Path(__file__).parents[2] / "docs"
 ARTICLE = " ".join((DOCS / "article.md").read_text().split())
 READINGS = DOCS / "results" / "readings"
+MUTATIONS = ("0.4 / 0.1", "0.4 / 0.03", "0.04 / 0.1", "0.1 / 0.05")  # the printed one first
 
 
 def rows(path):
@@ -119,13 +120,10 @@ def test_transitions(compared):
 
 
 def test_worlds_drawn_at_random():
-    """Of the 150 worlds that both conditions met; the counts of what is measured besides."""
+    """Of the 150 worlds that both conditions met."""
     measured = rows(READINGS / "factorial.csv")
     page = " ".join((DOCS / "readings.md").read_text().split())
-    assert f"{len(measured)} of its 450 runs are measured" in page
-    assert f"450 runs, {len(measured)} of them measured" in ARTICLE
-    fitted = {row["condition"]: row["runs fitted"] for row in rows(READINGS / "factorial-check.csv")}
-    assert f"{fitted['with-indicate']} and {fitted['with-ignore']} runs of a condition to estimate" in page
+    assert f"All {len(measured)} runs are measured" in page
     reached, solved = {}, {}
     for condition in ("with-indicate", "with-ignore"):
         first = [row for row in measured if row["condition"] == condition and int(row["seed"]) <= 1150]
@@ -138,6 +136,80 @@ def test_worlds_drawn_at_random():
     )
     assert f"| {reached['with-indicate']} of 150 | {reached['with-ignore']} of 150 |" in page
     assert f"| {solved['with-indicate']} of 150 | {solved['with-ignore']} of 150 |" in page
+
+
+@pytest.fixture(scope="module")
+def effects():
+    """Rows of the regressions by condition, outcome, factor and level."""
+    names = ("condition", "outcome", "factor", "level")
+    found = rows(READINGS / "factorial-effects.csv")
+    return {tuple(row[name] for name in names): row for row in found}
+
+
+def test_what_all_readings_mixed_are_said_to_show(effects):
+    page = " ".join((DOCS / "readings.md").read_text().split())
+    mastered, factor = "category 10 of I", "mutation"
+    shares = {
+        c: [100 * float(effects[c, mastered, factor, level]["mean"]) for level in MUTATIONS]
+        for c in ("with-indicate", "with-ignore")
+    }
+    printed, *others = shares["with-indicate"]
+    told = f"{printed:.1f} % of late With-Indicate agents"
+    between = f"{min(others):.0f} to {max(others):.0f} %"
+    assert told in page
+    assert told in ARTICLE
+    assert f"under each of the other three {between} (p = 1e-7)" in page
+    assert f"{between} under each of the others (p = 1e-7 after correction)" in ARTICLE
+    printed, *others = shares["with-ignore"]
+    assert f"With-Ignore {printed:.0f} against {min(others):.0f} to {max(others):.0f} % (p = 5e-5)" in page
+    for place, told in {
+        ("with-indicate", "plateau", "start_areas", "bounds"): "0.36 [0.27, 0.45] of plateau (p = 2e-11)",
+        (
+            "with-indicate",
+            "plateau",
+            "tau_exponent_max",
+            "0",
+        ): "0.09 [0.02, 0.15] of plateau With-Indicate (p = 0.01)",
+    }.items():
+        row = effects[place]
+        effect, low, high = (-float(row[name]) for name in ("effect", "high", "low"))
+        assert told.startswith(f"{effect:.2f} [{low:.2f}, {high:.2f}]")
+        assert float(told.split("p = ")[1].strip(")")) == pytest.approx(float(row["after Holm"]), rel=0.2)
+        assert told in page
+
+
+def test_nothing_else_is_shown_to_change_how_many_get_there(effects):
+    outcomes = ("plateau", "solved", "category 10 of I")
+    matter = {
+        factor
+        for (_, outcome, factor, _), row in effects.items()
+        if outcome in outcomes and float(row["after Holm"]) < 0.05
+    }
+    assert matter == {"mutation", "start_areas", "ties", "tau_exponent_max"}
+    assert all(float(row["low"]) < 0 for row in rows(READINGS / "factorial-check.csv"))
+    highest = max(
+        float(row["mean"])
+        for (condition, outcome, *_), row in effects.items()
+        if (condition, outcome) == ("with-indicate", "category 10 of I")
+    )
+    assert highest < 0.3
+
+
+def test_newest_first_reaches_more(effects):
+    page = " ".join((DOCS / "readings.md").read_text().split())
+
+    def means(condition, outcome):
+        return [
+            100 * float(effects[condition, outcome, "ties", level]["mean"])
+            for level in ("children", "elders")
+        ]
+
+    newest, elders = means("with-ignore", "solved")
+    assert f"With-Ignore {newest:.0f} against {elders:.0f} % of runs solve" in page
+    newest, elders = means("with-indicate", "category 10 of IV")
+    assert f"{newest:.1f} against {elders:.2f} % With-Indicate" in page
+    newest, elders = means("with-ignore", "category 10 of IV")
+    assert f"{newest:.1f} against {elders:.1f} % With-Ignore" in page
 
 
 def test_the_first_table_of_the_readme_says_what_the_tables_say(finalists, compared):

@@ -12,7 +12,7 @@ from mujoco_port.acting.rollout import Carrying, PhysicalRecord
 ROWS = [
     each.name
     for each in fields(PhysicalRecord)
-    if each.name not in ("instruction", "scale", "orders", "inputs")
+    if each.name not in ("instruction", "scale", "step_s", "orders", "inputs")
 ]
 
 
