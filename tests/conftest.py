@@ -3,6 +3,8 @@
 import os
 import shutil
 import signal
+import subprocess
+import sys
 import threading
 from pathlib import Path
 
@@ -22,9 +24,20 @@ if threading.current_thread() is threading.main_thread():
             signal.signal(number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL)
 
 
+@pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers() -> int:
     """One more worker than there are processors: some tests wait for programs, and others can go on then."""
     return len(os.sched_getaffinity(0)) + 1
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_setupnodes(config: pytest.Config) -> None:
+    """Compile for all workers at once; whoever is sooner compiles for itself."""
+    command = [sys.executable, "-m", "tests.arm2d.warm_up"]
+    compiling = subprocess.Popen(
+        command, cwd=config.rootpath, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    config.add_cleanup(compiling.wait)
 
 
 @pytest.fixture(scope="session")

@@ -12,12 +12,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import chain, combinations
 from math import comb
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+
+from evolution.search.randomness import Purpose, generator
 
 # Above so many ways of sharing out the runs, permutations are drawn instead of counted.
 LARGEST_EXACT: Final = 200_000
@@ -63,7 +66,7 @@ def compare(first: NDArray[np.float64], second: NDArray[np.float64], rng: np.ran
     return Comparison(
         means=(float(first.mean()), float(second.mean())),
         difference=float(first.mean() - second.mean()),
-        interval=bootstrap_interval([first, second], _difference_of_means, rng),
+        interval=bootstrap_interval([first, second], difference_of_means, rng),
         mann_whitney_p=permutation_test(midranks(values), len(first), rng),
         permutation_p=permutation_test(values, len(first), rng),
         cliffs_delta=float(delta),
@@ -81,16 +84,49 @@ def permutation_test(scores: NDArray[np.float64], n: int, rng: np.random.Generat
         n: Runs in the first group.
         rng: Draws, where it comes to that.
     """
-    total = len(scores)
-    exact = comb(total, n) <= LARGEST_EXACT
-    if exact:
-        chosen = np.fromiter(chain.from_iterable(combinations(range(total), n)), np.int64).reshape(-1, n)
-    else:
-        chosen = rng.permuted(np.tile(np.arange(total), (LARGEST_EXACT, 1)), axis=1)[:, :n]
-    off = np.abs(scores[chosen].sum(axis=1) - n * scores.mean())
+    return permutation_p(scores, ways_to_choose(len(scores), n, rng))
+
+
+@dataclass(frozen=True)
+class Ways:
+    """Ways to choose runs for the first of two groups.
+
+    Attributes:
+        chosen: [W, n], numbers of runs.
+        complete: Whether these are all the ways, or drawn ones.
+    """
+
+    chosen: NDArray[np.int64]
+    complete: bool
+
+
+def ways_to_choose(total: int, n: int, rng: np.random.Generator) -> Ways:
+    """All ways to choose n of so many runs while there are at most `LARGEST_EXACT`, else as many drawn."""
+    if comb(total, n) <= LARGEST_EXACT:
+        return Ways(_all_ways(total, n), complete=True)
+    return Ways(rng.permuted(np.tile(np.arange(total), (LARGEST_EXACT, 1)), axis=1)[:, :n], complete=False)
+
+
+@lru_cache(maxsize=2)  # asked for again and again with the same numbers of runs
+def _all_ways(total: int, n: int) -> NDArray[np.int64]:
+    ways = np.fromiter(chain.from_iterable(combinations(range(total), n)), np.int64).reshape(-1, n)
+    ways.setflags(write=False)
+    return ways
+
+
+@lru_cache(maxsize=2)
+def declared_ways(total: int, n: int) -> Ways:
+    """The same ways for all comparisons of so many runs in a study that was declared beforehand."""
+    return ways_to_choose(total, n, generator(0, Purpose.STATISTICS))
+
+
+def permutation_p(scores: NDArray[np.float64], ways: Ways) -> float:
+    """The share of these ways whose scores sum up at least as far off as those of the first runs."""
+    n = ways.chosen.shape[1]
+    off = np.abs(scores[ways.chosen].sum(axis=1) - n * scores.mean())
     observed = abs(scores[:n].sum() - n * scores.mean())
     extreme = np.count_nonzero(off >= observed - 1e-12 * max(1.0, np.abs(scores).max()))
-    return float(extreme / len(chosen) if exact else (extreme + 1) / (len(chosen) + 1))
+    return float(extreme / len(off) if ways.complete else (extreme + 1) / (len(off) + 1))
 
 
 def sign_flip_test(differences: NDArray[np.float64]) -> float:
@@ -167,7 +203,8 @@ def wilcoxon_as_published(first: NDArray[np.float64], second: NDArray[np.float64
     return float(result.statistic), float(result.pvalue)
 
 
-def _difference_of_means(groups: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+def difference_of_means(groups: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """First less second, for each pair of resampled groups, [samples, runs] each: [samples]."""
     return groups[0].mean(axis=1) - groups[1].mean(axis=1)
 
 

@@ -16,8 +16,10 @@ from arm2d import Instruction
 from arm2d.tasks.task import AnyTask, task_of
 from evolution.results.statistics import (
     bootstrap_interval,
+    declared_ways,
+    difference_of_means,
     mean_interval,
-    permutation_test,
+    permutation_p,
     proportion_interval,
     proportions_interval,
 )
@@ -66,7 +68,7 @@ class Outcome:
         if self.counts_runs:
             ends = proportions_interval((int(first.sum()), len(first)), (int(second.sum()), len(second)))
         else:
-            ends = bootstrap_interval([first, second], _difference, generator(0, Purpose.STATISTICS))
+            ends = bootstrap_interval([first, second], difference_of_means, generator(0, Purpose.STATISTICS))
         return Estimate(float(first.mean() - second.mean()), *ends)
 
 
@@ -199,16 +201,12 @@ def _is_base(paper: Group, group: Group) -> bool:
 def _compare(group: Group, paper: Group, outcome: Outcome) -> Comparison:
     words = [word for word in group.held_out if word in paper.held_out]
     first, second = outcome.values(group.runs, words), outcome.values(paper.runs, words)
-    rng = generator(0, Purpose.STATISTICS)
+    ways = declared_ways(len(first) + len(second), len(first))
     return Comparison(
         group=group,
         paper=paper,
         outcome=outcome,
         means=(float(first.mean()), float(second.mean())),
         difference=outcome.difference(first, second),
-        p=permutation_test(np.concatenate([first, second]), len(first), rng),
+        p=permutation_p(np.concatenate([first, second]), ways),
     )
-
-
-def _difference(groups: list[NDArray[np.float64]]) -> NDArray[np.float64]:
-    return groups[0].mean(axis=1) - groups[1].mean(axis=1)

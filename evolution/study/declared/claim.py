@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 from arm2d import Condition
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.report.columns import PlainTable
-from evolution.results.statistics import compare, mean_interval, proportions_interval, sign_flip_test
+from evolution.results.statistics import (
+    bootstrap_interval,
+    declared_ways,
+    difference_of_means,
+    mean_interval,
+    permutation_p,
+    proportions_interval,
+    sign_flip_test,
+)
 from evolution.search.randomness import Purpose, generator
 from evolution.study.declared.beta_binomial import Counts, compare_counts
 from evolution.study.declared.regression import Estimate, estimate_columns
@@ -182,11 +190,13 @@ def _if_known(p: float) -> str:
 def _by_counts(question: Question, groups: Sequence[Sequence[MeasuredRun]]) -> Answer:
     """A question answered by the beta-binomial model, and by permutation of runs."""
     first, second = (question.shares(group) for group in groups)
-    found = compare(first, second, generator(0, Purpose.STATISTICS))
+    means = float(first.mean()), float(second.mean())
+    rng, ways = generator(0, Purpose.STATISTICS), declared_ways(len(first) + len(second), len(first))
+    interval = bootstrap_interval([first, second], difference_of_means, rng)
     tested = compare_counts(*(question.counts(group) for group in groups))
     return Answer(
-        question.name, (len(first), len(second)), found.means,
-        Estimate(found.difference, *found.interval), tested.p, found.permutation_p,
+        question.name, (len(first), len(second)), means, Estimate(means[0] - means[1], *interval),
+        tested.p, permutation_p(np.concatenate([first, second]), ways),
     )  # fmt: skip
 
 
