@@ -20,6 +20,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import brief
 from evolution.search.randomness import Purpose, generator
 
 # Above so many ways of sharing out the runs, permutations are drawn instead of counted.
@@ -98,6 +99,8 @@ class Ways:
 
     chosen: NDArray[np.int64]
     complete: bool
+
+    __repr__ = brief
 
 
 def ways_to_choose(total: int, n: int, rng: np.random.Generator) -> Ways:
