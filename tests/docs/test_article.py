@@ -195,6 +195,39 @@ def test_nothing_else_is_shown_to_change_how_many_get_there(effects):
     assert highest < 0.3
 
 
+def test_what_random_worlds_say_of_the_claim():
+    found = {row["question"]: row for row in rows(READINGS / "factorial-claim.csv")}
+    names = ("With-Indicate", "With-Ignore", "difference", "low", "high")
+
+    def told(question, form):
+        return [form.format(100 * float(found[question][name])) for name in names]
+
+    first, second, difference, low, high = told("fully compositional agents", "{:+.1f}")
+    assert f"{first[1:]} % of With-Indicate and {second[1:]} % of With-Ignore agents are fully" in ARTICLE
+    assert f"{difference} points [{low}, {high}], p = {found['fully compositional agents']['p']}" in ARTICLE
+    partial = found["partially compositional agents"]
+    first, second, *_ = told("partially compositional agents", "{:.1f}")
+    assert f"({first} against {second} %, p = {partial['after Holm']} after correction)" in ARTICLE
+    both = found["masters that understand both"]
+    first, second, difference, low, high = told("masters that understand both", "{:+.1f}")
+    assert f"in the {both['With-Ignore runs']} worlds" in ARTICLE
+    assert f"{first[1:]} against {second[1:]} % understand both" in ARTICLE
+    assert f"{difference} points [{low}, {high}], but p = {both['after Holm']} after" in ARTICLE
+    passing = "{} agents that pass {} transitions"
+    row = found[passing.format("partially compositional", "action")]
+    first, second, difference, low, high = told(
+        passing.format("partially compositional", "action"), "{:+.0f}"
+    )
+    assert f"{first[1:]} % of partially compositional With-Indicate agents pass" in ARTICLE
+    assert f"({row['With-Indicate runs']} worlds, difference {difference} points [{low}, {high}]" in ARTICLE
+    assert f"p = {row['after Holm']} after correction); of fully" in ARTICLE
+    kinds = ("fully compositional", "partially compositional", "non-compositional")
+    assert all(float(found[passing.format(kind, "action")]["With-Ignore"]) == 0 for kind in kinds)
+    for kind in kinds:
+        nobody = found[passing.format(kind, "object")]
+        assert float(nobody["With-Indicate"]) == float(nobody["With-Ignore"]) == 0
+
+
 def test_newest_first_reaches_more(effects):
     page = " ".join((DOCS / "readings.md").read_text().split())
 

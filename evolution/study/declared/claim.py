@@ -113,8 +113,8 @@ def answers(runs: Sequence[MeasuredRun]) -> list[Answer]:
     return [replace(each, corrected=float(p)) for each, p in zip([first, *others], corrected, strict=True)]
 
 
-def world_differences(runs: Sequence[MeasuredRun], question: Question) -> NDArray[np.float64]:
-    """With-Indicate less With-Ignore in every world of the factorial study in which both can tell."""
+def shares_by_world(runs: Sequence[MeasuredRun], question: Question) -> NDArray[np.float64]:
+    """Shares [W, 2], With-Indicate and With-Ignore, in the W worlds in which both can tell."""
     by_condition = [
         {
             run.config.seed: run.counts[question.count] / run.counts[question.among]
@@ -124,18 +124,19 @@ def world_differences(runs: Sequence[MeasuredRun], question: Question) -> NDArra
         for condition in Condition
     ]
     first, second = by_condition
-    return np.array([first[seed] - second[seed] for seed in sorted(first.keys() & second.keys())])
+    both = sorted(first.keys() & second.keys())
+    return np.array([(first[seed], second[seed]) for seed in both]).reshape(-1, 2)
 
 
 def averaged_over_worlds(runs: Sequence[MeasuredRun]) -> list[Answer]:
     """The same questions over the worlds that both conditions met, as paired differences."""
     found = []
     for question in QUESTIONS:
-        differences = world_differences(runs, question)
-        if len(differences) < 2:
+        shares = shares_by_world(runs, question)
+        if len(shares) < 2:
             continue
+        differences, means = shares[:, 0] - shares[:, 1], shares.mean(axis=0)
         interval = mean_interval(differences, generator(0, Purpose.STATISTICS))
-        means = [question.shares([r for r in runs if r.config.condition is c]).mean() for c in Condition]
         n, p = len(differences), sign_flip_test(differences)
         difference = Estimate(float(differences.mean()), *interval)
         found.append(Answer(question.name, (n, n), (float(means[0]), float(means[1])), difference, p))

@@ -12,6 +12,7 @@ from evolution.experiments.variants import variant_name
 from evolution.figures.page import save_figure
 from evolution.report.columns import PlainTable
 from evolution.runs.storage import make_folder, write_atomically
+from evolution.study.declared.claim import answer_table, averaged_over_worlds
 from evolution.study.declared.factors import FACTORS, levels_of
 from evolution.study.declared.held_back import Check, check
 from evolution.study.declared.levels_figure import levels_figure
@@ -40,6 +41,7 @@ def write_factorial(runs: Sequence[MeasuredRun], folder: Path) -> tuple[list[Pat
         tables["check"] = check_table(checks)
     if set(models) == set(Condition):
         tables["worlds"] = world_table(chosen_worlds(models, runs))
+        tables["claim"] = answer_table([("factorial worlds", averaged_over_worlds(runs))])
     paths = [rows]
     for name, table in tables.items():
         paths.append(folder / f"factorial-{name}.csv")

@@ -18,8 +18,8 @@ from evolution.study.declared.claim import (
     QUESTIONS,
     answers,
     averaged_over_worlds,
+    shares_by_world,
     verdict,
-    world_differences,
 )
 from evolution.study.declared.confirmation import hundred
 from evolution.study.declared.parts import DeclaredPart
@@ -160,8 +160,12 @@ def test_worlds_are_compared_with_themselves():
         k = round(500 * (base + 0.04 * (config.condition is INDICATE) + rng.normal(0, 0.02)))
         run = made_up(config)
         runs.append(replace(run, counts={**run.counts, FULL: max(k, 0)}))
-    assert len(world_differences(runs, QUESTIONS[0])) == 150
+    pairs = shares_by_world(runs, QUESTIONS[0])
+    assert pairs.shape == (150, 2)
     first, *_ = averaged_over_worlds(runs)
+    # The means are of these worlds, not of those that one condition met alone.
+    assert first.means == pytest.approx(tuple(pairs.mean(axis=0)))
+    assert first.difference.value == pytest.approx(first.means[0] - first.means[1])
     assert first.difference.low > 0.02
     assert first.difference.high < 0.06
     assert first.p < 1e-6

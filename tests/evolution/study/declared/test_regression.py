@@ -269,8 +269,8 @@ def test_results_are_written_as_far_as_there_are_runs(runs, tmp_path, capsys):
     paths, notes = write_factorial(runs, tmp_path / "all")
     assert not notes
     assert sorted(path.name for path in paths) == [
-        "factorial-check.csv", "factorial-effects.csv", "factorial-interactions.csv", "factorial-levels.png",
-        "factorial-levels.svg", "factorial-worlds.csv", "factorial.csv",
+        "factorial-check.csv", "factorial-claim.csv", "factorial-effects.csv", "factorial-interactions.csv",
+        "factorial-levels.png", "factorial-levels.svg", "factorial-worlds.csv", "factorial.csv",
     ]  # fmt: skip
     write_rows(runs[:150], tmp_path / "rows.csv")
     output = [f"--output={tmp_path / 'out'}", f"--rows={tmp_path / 'rows.csv'}", "--now"]
