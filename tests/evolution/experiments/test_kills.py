@@ -48,7 +48,7 @@ def test_a_run_asked_to_stop_says_how_to_go_on_and_loses_nothing(finished_run, t
     process = start(tmp_path / "run")
     time.sleep(0.05)
     process.send_signal(number)
-    output, errors = process.communicate(timeout=30)
+    output, errors = process.communicate(timeout=120)
     assert process.returncode == 130, errors
     assert "of 230 generations; go on with the same command" in output
     assert errors == ""
@@ -63,7 +63,7 @@ def test_a_full_disk_costs_a_sentence_and_nothing_else(finished_run, tmp_path):
         resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
 
     process = start(tmp_path / "run", limit=tiny_files)
-    _, errors = process.communicate(timeout=30)
+    _, errors = process.communicate(timeout=120)
     assert process.returncode == 2
     assert errors.startswith("wordarm: ")
     assert errors.count("\n") == 1

@@ -142,7 +142,7 @@ def test_a_killed_process_of_this_machine_is_followed_at_once(tmp_path):
 def test_a_process_whose_run_was_taken_over_ends_itself(tmp_path):
     process = holder_process(tmp_path, renewal=0.05)
     leave(tmp_path)
-    _, errors = process.communicate(timeout=30)
+    _, errors = process.communicate(timeout=120)
     assert process.returncode == EXIT_CODE
     assert errors.startswith(f"wordarm: node12 has taken over {tmp_path}")
     assert json.loads((tmp_path / LEASE).read_text()) == asdict(ELSEWHERE)
