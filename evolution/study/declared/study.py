@@ -93,7 +93,8 @@ class DeclaredStudy:
         own = runs_of_worlds(runs, worlds)
         found = decide(own, spreads(self._factorial))
         tables = {"fresh-worlds": world_table(own, worlds, found), "fresh-duels": duel_table(found)}
-        return _write(tables.items(), results), [found.sentence]
+        whole = len(runs) == len(self.part("fresh").configs)
+        return _write(tables.items(), results), [found.sentence if whole else f"so far: {found.sentence}"]
 
     def _write_less_one(self, runs: Sequence[MeasuredRun], results: Path) -> Written:
         winner = self._decided[1]

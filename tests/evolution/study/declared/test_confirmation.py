@@ -226,7 +226,7 @@ def test_confirmation_is_written_by_one_command(study, capsys):
     folder = study
     assert main(["study", "readings", "--part=fresh", f"--output={folder}", "--now"]) == 0
     said = capsys.readouterr().out
-    assert "the winner, b, beats the printed readings: it is to be the default" in said
+    assert "so far: the winner, b, beats the printed readings: it is to be the default" in said
     assert "117 of 390 runs are measured so far" in said
     results = folder / "fresh" / "results"
     assert sorted(path.name for path in results.iterdir()) == [
