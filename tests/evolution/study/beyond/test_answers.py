@@ -22,20 +22,9 @@ from evolution.study.beyond.answers import (
 )
 from evolution.study.beyond.cells import BY_NAME, CELLS
 from evolution.study.beyond.results import cell_table, comparison_table
-from tests.evolution.study.beyond.made_up import AGENTS, CONFIGS, made_study, made_up
+from tests.evolution.study.beyond.made_up import AGENTS, CONFIGS, SEEDS, made_study, made_up
 
 BLUE, GREEN = Instruction.parse("move blue"), Instruction.parse("touch green")
-SEEDS = range(201, 209)  # so few that all ways to exchange runs are counted
-
-
-@pytest.fixture(scope="module")
-def groups():
-    return groups_of(made_study(SEEDS))
-
-
-@pytest.fixture(scope="module")
-def found(groups):
-    return comparisons(groups)
 
 
 def group_of(groups, name, third="indicate"):

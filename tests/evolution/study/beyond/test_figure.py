@@ -8,19 +8,7 @@ from evolution.figures.page import CONDITION_COLOURS, SERIES
 from evolution.study.beyond.answers import OUTCOMES, comparisons, groups_of, verdict_of
 from evolution.study.beyond.cells import CELLS
 from evolution.study.beyond.figure import LOOKS, cells_figure
-from tests.evolution.study.beyond.made_up import made_study
-
-SEEDS = range(201, 209)
-
-
-@pytest.fixture(scope="module")
-def groups():
-    return groups_of(made_study(SEEDS))
-
-
-@pytest.fixture(scope="module")
-def found(groups):
-    return comparisons(groups)
+from tests.evolution.study.beyond.made_up import SEEDS, made_study
 
 
 @pytest.fixture(scope="module")
