@@ -208,6 +208,14 @@ def test_what_random_worlds_say_of_the_claim():
     partial = found["partially compositional agents"]
     first, second, *_ = told("partially compositional agents", "{:.1f}")
     assert f"({first} against {second} %, p = {partial['after Holm']} after correction)" in ARTICLE
+    measured = [row for row in rows(READINGS / "factorial.csv") if int(row["seed"]) <= 1150]
+    obeying = [
+        sum(int(row["masters"]) for row in own) / sum(int(row["agents"]) for row in own)
+        for own in (
+            [row for row in measured if row["condition"] == c] for c in ("with-indicate", "with-ignore")
+        )
+    ]
+    assert "({:.0f} against {:.0f} %). Of those".format(*(100 * share for share in obeying)) in ARTICLE
     both = found["masters that understand both"]
     first, second, difference, low, high = told("masters that understand both", "{:+.1f}")
     assert f"in the {both['With-Ignore runs']} worlds" in ARTICLE
