@@ -1,39 +1,120 @@
 """What a camera at the end of S1 (J2) sees: the reading `camera_origin` end (spec section 4).
 
-A point in view from J2 is in view from J1 too, where it lies nearer to S1's direction. Few discs are,
-and only of those the bearing from J2 is worked out.
+A sector's edge, seen from J2, is a bearing from J1 that depends on the disc's distance alone: it is worked
+out when a disc is placed, and a step compares. Only where a comparison is too close to trust, where a disc is
+close to J2, or where any part of a disc counts, the bearing from J2 is worked out; a point in view from J2 is
+in view from J1 too, where it lies nearer to S1's direction.
 """
 
 from math import sqrt
+from typing import Final
 
 from arm2d.arithmetic import bearing, sin_cos
 from arm2d.compiling import compiled
-from arm2d.constants import N_OBJECTS, S1_LENGTH, VIEW_HALF_WIDTH
+from arm2d.constants import MIDDLE_SECTOR_HALF_WIDTH, N_OBJECTS, S1_LENGTH, VIEW_HALF_WIDTH
 from arm2d.kernel.controller import sector_bits, white_bits
 from arm2d.kernel.lanes import (
     ALPHA,
     BEARING,
     CAMERA,
     DISTANCE,
+    EDGE,
     HIGH,
     LOW,
+    MIDDLE_EDGE,
     N_LANES,
     NEAR,
     SEEN,
+    TARGET_BITS,
     TRIAL,
     TURN,
+    UNCLEAR,
     Floats,
     Integers,
 )
 from arm2d.kernel.world import World
 
 
+# Where sectors end, as sines.
+SINE_OF_VIEW: Final = sin_cos(VIEW_HALF_WIDTH)[0]
+SINE_OF_MIDDLE: Final = sin_cos(MIDDLE_SECTOR_HALF_WIDTH)[0]
+# Nearer to an edge than this [deg], or nearer to J1 than this [cm], the bearing from J2 itself decides: rounding
+# is a thousand times smaller.
+TOO_CLOSE_TO_AN_EDGE: Final = 1e-6
+TOO_CLOSE_TO_J2: Final = S1_LENGTH + 1.0
+
+
 @compiled(allocates=False)
-def look_from_end(s: Floats, n: Integers, lanes: int, objects: Integers, world: World) -> None:
-    """After a step, set camera bits and SEEN of each lane where S1 turned or a disc may have moved."""
-    for i in range(lanes):
-        if s[TURN + i] != 0.0 or n[NEAR + i] != 0:
-            look_in_lane(s, n, i, objects[n[TRIAL + i]], world)
+def look_from_end(s: Floats, n: Integers, lanes: int, width: int, objects: Integers, world: World) -> None:
+    """After a step, set camera bits and SEEN of each lane.
+
+    Args:
+        s: The lanes' floats and
+        n: integers.
+        lanes: How many lanes are in use, and
+        width: as many, to whole blocks.
+        objects: [T], the object of each trial.
+        world: Its `World`.
+    """
+    if world.any_part:
+        for i in range(lanes):
+            if s[TURN + i] != 0.0 or n[NEAR + i] != 0:
+                look_in_lane(s, n, i, objects[n[TRIAL + i]], world)
+    elif _look_at_centres(s, n, width, world.white_right, world.white_left) > 0:
+        for i in range(lanes):
+            if n[UNCLEAR + i] != 0:
+                look_in_lane(s, n, i, objects[n[TRIAL + i]], world)
+
+
+@compiled(allocates=False)
+def set_edges(s: Floats, at: int, distance: float) -> None:
+    """Set how far from S1's direction, seen from J1 [deg], the edges of view and middle sector are for a disc.
+
+    In the triangle of J1, J2 and the disc, the sine of the angle at the disc is that at J2 by the law of sines.
+
+    Args:
+        s: The lanes' floats.
+        at: The disc's place, of lane and colour.
+        distance: Of the disc from J1 [cm].
+    """
+    if distance >= TOO_CLOSE_TO_J2:
+        s[EDGE + at] = VIEW_HALF_WIDTH - _arc_sine(SINE_OF_VIEW * S1_LENGTH / distance)
+        s[MIDDLE_EDGE + at] = MIDDLE_SECTOR_HALF_WIDTH - _arc_sine(SINE_OF_MIDDLE * S1_LENGTH / distance)
+
+
+@compiled(allocates=False)
+def _arc_sine(sine: float) -> float:
+    """Arc sine of a number in [0, 1) [deg]."""
+    return bearing(sqrt(1.0 - sine * sine), sine)
+
+
+@compiled(allocates=False)
+def _look_at_centres(s: Floats, n: Integers, width: int, right: float, left: float) -> int:
+    """Set camera bits and SEEN by the edges; in how many lanes that is unclear, which are marked in UNCLEAR."""
+    n_unclear = 0
+    for i in range(width):
+        alpha = s[ALPHA + i]
+        bits, unclear = 0, 0
+        for disc in range(N_OBJECTS):
+            at = disc * N_LANES + i
+            from_s1 = s[BEARING + at] - alpha
+            away = from_s1 if from_s1 >= 0.0 else -from_s1
+            sector = 0o100 if from_s1 >= 0.0 else 0o001
+            sector = 0o010 if away < s[MIDDLE_EDGE + at] else sector
+            bits |= (sector if away < s[EDGE + at] else 0) << disc
+            unclear |= 1 if s[DISTANCE + at] < TOO_CLOSE_TO_J2 else 0
+            unclear |= _too_close(away - s[EDGE + at]) | _too_close(away - s[MIDDLE_EDGE + at])
+        n[SEEN + i] = 1 if (bits & n[TARGET_BITS + i]) != 0 else 0
+        n[CAMERA + i] = bits | white_bits(alpha, right, left)
+        n[UNCLEAR + i] = unclear
+        n_unclear += unclear
+    return n_unclear
+
+
+@compiled(allocates=False)
+def _too_close(difference: float) -> int:
+    """1 where a difference [deg] is too small to trust its sign."""
+    return 1 if (-TOO_CLOSE_TO_AN_EDGE < difference) & (difference < TOO_CLOSE_TO_AN_EDGE) else 0
 
 
 @compiled(allocates=False)

@@ -18,6 +18,7 @@ from arm2d.constants import (
     SUB_STEPS,
     TOUCH_TOLERANCE,
 )
+from arm2d.kernel.camera_at_end import set_edges
 from arm2d.kernel.lanes import (
     ALPHA,
     BEARING,
@@ -150,6 +151,8 @@ def place_disc(s: Floats, at: int, bearing_deg: float, distance: float, world: W
     )
     s[LOW + at] = bearing_deg - half
     s[HIGH + at] = bearing_deg + half
+    if world.from_end:
+        set_edges(s, at, distance)
 
 
 @compiled(allocates=False)

@@ -38,7 +38,10 @@ BEST: Final = 23 * N_LANES  # largest run so far
 FIRST_OFFSET: Final = 24 * N_LANES  # d_i [deg]
 STRETCH: Final = 25 * N_LANES  # largest 1 - beta / 90 with the target in view
 SUM: Final = 26 * N_LANES  # what the inter-neurons drive in one of them, on the way to its next state
-N_WORLD_FIELDS: Final = 27
+# Three fields each, kept where the camera is at the end of S1: how far from S1's direction, seen from J1 [deg], ...
+EDGE: Final = 27 * N_LANES  # ... a disc's centre leaves the view, and ...
+MIDDLE_EDGE: Final = 30 * N_LANES  # ... the middle sector
+N_WORLD_FIELDS: Final = 33
 # Three more fields for each inter-neuron, NEURON further from one to the next.
 Y: Final = (N_WORLD_FIELDS + 0) * N_LANES  # its state
 Z: Final = (N_WORLD_FIELDS + 1) * N_LANES  # its output, sigmoid(y + beta)
@@ -59,7 +62,9 @@ DONE: Final = 10 * N_LANES  # 1 when the trial has ended
 TRIAL: Final = 11 * N_LANES  # which trial
 WAIT: Final = 12 * N_LANES  # steps until the words change, NOT_SEEN or CHANGED
 SEEN: Final = 13 * N_LANES  # 1 if the target is in view from the end of S1; kept where the camera is there
-N_INTEGER_FIELDS: Final = 14
+TARGET_BITS: Final = 14 * N_LANES  # the camera's bits of the target's colour
+UNCLEAR: Final = 15 * N_LANES  # 1 if a disc is too close to a sector's edge to tell its side from J1
+N_INTEGER_FIELDS: Final = 16
 
 NONE: Final = 0
 RIGHT: Final = 1

@@ -21,6 +21,7 @@ def start_lane(s: Floats, n: Integers, i: int, trial: int, trials: TrialArrays, 
         n[at.SIDE + disc * N_LANES + i] = at.NONE
         place_disc(s, disc * N_LANES + i, trials.bearing[trial, disc], trials.distance[trial, disc], world)
     set_limit(s, i, world)
+    n[at.TARGET_BITS + i] = 0o111 << trials.object[trial]
     if world.from_end:
         look_in_lane(s, n, i, trials.object[trial], world)
     s[at.TARGET + i] = trials.bearing[trial, trials.object[trial]]

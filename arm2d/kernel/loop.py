@@ -118,7 +118,7 @@ def _run_network(
             record_step(s, n, recording[steps])
             record_states(s, recording[steps], inter)
         if world.from_end:
-            look_from_end(s, n, active, objects, world)
+            look_from_end(s, n, active, width, objects, world)
         if world.best_stretch:
             remember_stretch(s, n, active, world)
         if changing:

@@ -79,7 +79,7 @@ def step(
         if len(row) > 0 and b == 0:
             record_step(s, n, row)
         if world.from_end:
-            look_from_end(s, n, lanes, trials.object, world)
+            look_from_end(s, n, lanes, width, trials.object, world)
         if world.best_stretch:
             remember_stretch(s, n, lanes, world)
         if score_step(s, n, width, world.keep, world.from_end) > 0:
