@@ -19,6 +19,7 @@ from arm2d.kernel.lanes import (
     CAMERA,
     DISTANCE,
     EDGE,
+    EDGES_FOR,
     HIGH,
     LOW,
     MIDDLE_EDGE,
@@ -34,14 +35,15 @@ from arm2d.kernel.lanes import (
 )
 from arm2d.kernel.world import World
 
-
 # Where sectors end, as sines.
 SINE_OF_VIEW: Final = sin_cos(VIEW_HALF_WIDTH)[0]
 SINE_OF_MIDDLE: Final = sin_cos(MIDDLE_SECTOR_HALF_WIDTH)[0]
-# Nearer to an edge than this [deg], or nearer to J1 than this [cm], the bearing from J2 itself decides: rounding
-# is a thousand times smaller.
+# Nearer to an edge than this [deg], or nearer to J1 than this [cm], the bearing from J2 itself decides:
+# rounding is a thousand times smaller.
 TOO_CLOSE_TO_AN_EDGE: Final = 1e-6
 TOO_CLOSE_TO_J2: Final = S1_LENGTH + 1.0
+# Edges hold for distances that differ by less [cm]: S1 alone pushes a disc around J1, but for rounding.
+SAME_DISTANCE: Final = 1e-9
 
 
 @compiled(allocates=False)
@@ -68,16 +70,17 @@ def look_from_end(s: Floats, n: Integers, lanes: int, width: int, objects: Integ
 
 @compiled(allocates=False)
 def set_edges(s: Floats, at: int, distance: float) -> None:
-    """Set how far from S1's direction, seen from J1 [deg], the edges of view and middle sector are for a disc.
+    """Set how far from S1's direction, seen from J1 [deg], view and middle sector end for a disc.
 
-    In the triangle of J1, J2 and the disc, the sine of the angle at the disc is that at J2 by the law of sines.
+    In the triangle of J1, J2 and the disc, the angle at the disc follows from that at J2 by the law of sines.
 
     Args:
         s: The lanes' floats.
-        at: The disc's place, of lane and colour.
+        at: The disc's lane and colour, as in `place_disc`.
         distance: Of the disc from J1 [cm].
     """
-    if distance >= TOO_CLOSE_TO_J2:
+    if distance >= TOO_CLOSE_TO_J2 and abs(distance - s[EDGES_FOR + at]) > SAME_DISTANCE:
+        s[EDGES_FOR + at] = distance
         s[EDGE + at] = VIEW_HALF_WIDTH - _arc_sine(SINE_OF_VIEW * S1_LENGTH / distance)
         s[MIDDLE_EDGE + at] = MIDDLE_SECTOR_HALF_WIDTH - _arc_sine(SINE_OF_MIDDLE * S1_LENGTH / distance)
 
@@ -90,7 +93,7 @@ def _arc_sine(sine: float) -> float:
 
 @compiled(allocates=False)
 def _look_at_centres(s: Floats, n: Integers, width: int, right: float, left: float) -> int:
-    """Set camera bits and SEEN by the edges; in how many lanes that is unclear, which are marked in UNCLEAR."""
+    """Set camera bits and SEEN by the edges; in how many lanes that is unclear, marked in UNCLEAR."""
     n_unclear = 0
     for i in range(width):
         alpha = s[ALPHA + i]
@@ -114,7 +117,8 @@ def _look_at_centres(s: Floats, n: Integers, width: int, right: float, left: flo
 @compiled(allocates=False)
 def _too_close(difference: float) -> int:
     """1 where a difference [deg] is too small to trust its sign."""
-    return 1 if (-TOO_CLOSE_TO_AN_EDGE < difference) & (difference < TOO_CLOSE_TO_AN_EDGE) else 0
+    size = difference if difference >= 0.0 else -difference
+    return 1 if size < TOO_CLOSE_TO_AN_EDGE else 0
 
 
 @compiled(allocates=False)

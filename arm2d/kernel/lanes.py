@@ -38,10 +38,11 @@ BEST: Final = 23 * N_LANES  # largest run so far
 FIRST_OFFSET: Final = 24 * N_LANES  # d_i [deg]
 STRETCH: Final = 25 * N_LANES  # largest 1 - beta / 90 with the target in view
 SUM: Final = 26 * N_LANES  # what the inter-neurons drive in one of them, on the way to its next state
-# Three fields each, kept where the camera is at the end of S1: how far from S1's direction, seen from J1 [deg], ...
-EDGE: Final = 27 * N_LANES  # ... a disc's centre leaves the view, and ...
-MIDDLE_EDGE: Final = 30 * N_LANES  # ... the middle sector
-N_WORLD_FIELDS: Final = 33
+# Three fields each, kept where the camera is at the end of S1.
+EDGE: Final = 27 * N_LANES  # how far from S1's direction, seen from J1, a disc's centre leaves the view [deg]
+MIDDLE_EDGE: Final = 30 * N_LANES  # the same of the middle sector
+EDGES_FOR: Final = 33 * N_LANES  # the distance from J1 that they hold for [cm]
+N_WORLD_FIELDS: Final = 36
 # Three more fields for each inter-neuron, NEURON further from one to the next.
 Y: Final = (N_WORLD_FIELDS + 0) * N_LANES  # its state
 Z: Final = (N_WORLD_FIELDS + 1) * N_LANES  # its output, sigmoid(y + beta)
