@@ -15,8 +15,9 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 N_LANES: Final = 32
-# Loops run over whole blocks of lanes; idle lanes hold the finite values of an ended trial.
-BLOCK: Final = 4
+# Loops run over whole blocks of lanes, as many as the widest vectors hold (AVX-512), so that none is left for
+# a loop one by one; idle lanes hold the finite values of an ended trial.
+BLOCK: Final = 8
 
 # Fields of `s`.
 ALPHA: Final = 0 * N_LANES  # angle of S1 [deg]
