@@ -42,7 +42,7 @@ SEEN_FROM_THE_END = [
     {"object_vision": "any_part", "object_radius": 11.8},
     {"f3_time": "best", "bound_vision": "near", "object_radius": 10.0, "start_areas": "bounds"},
 ]
-TRIALS_PER_ALTERNATIVE = -(-10_000 // len(ALTERNATIVES))
+TRIALS_PER_ALTERNATIVE = -(-8_000 // len(ALTERNATIVES))
 
 
 def genotypes_of(evolved, n, rng):

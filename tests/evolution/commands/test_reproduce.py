@@ -74,7 +74,10 @@ def test_repeated_it_does_nothing_again_but_the_tables_and_the_page(reproduced):
 def test_stopped_it_ends_its_workers_and_goes_on_with_the_same_command(reproduced, tmp_path):
     folder = tmp_path / "small"
     shutil.copytree(reproduced[0], folder)
-    shutil.rmtree(folder / "with-ignore" / "seed-0001")  # the other run is not begun anew
+    # One run is begun anew; what is drawn of its best agent will be right again when it is done.
+    for each in (folder / "with-ignore" / "seed-0001").iterdir():
+        if each.name not in ("lineage", "behaviour"):
+            shutil.rmtree(each) if each.is_dir() else each.unlink()
     process = subprocess.Popen(command(folder), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     wait_for(lambda: list(folder.glob("with-ignore/seed-0001/parts/*.npz")))
     process.send_signal(signal.SIGINT)
@@ -90,8 +93,8 @@ def test_stopped_it_ends_its_workers_and_goes_on_with_the_same_command(reproduce
 def test_tortured_it_ends_with_the_bits_of_the_undisturbed_one(reproduced, tmp_path):
     """The short form of `wordarm doctor --torture`: refused, killed, damaged, repaired, compared."""
     small = Settings(population=10, elites=2, parents=5, generations=230)
-    tally = torture(Torture(tmp_path, kills=8, settings=small), print, reproduced[0])
-    assert tally.kills == 8
+    tally = torture(Torture(tmp_path, kills=5, settings=small), print, reproduced[0])
+    assert tally.kills == 5
     assert tally.damages.total() == 6
     assert tally.refusals["files that may not grow, as on a full disk"] == tally.rounds == 1
     assert list(tmp_path.iterdir()) == []
