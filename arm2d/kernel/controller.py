@@ -86,11 +86,12 @@ def tabulate_drives(network: Floats, betas: Floats, codes: Integers, drives: Dri
     for j in range(count):
         for code in range(4):
             drives.touch[code, j] = _sum_of_bits(weights, 0, 2, code, off, on, j)
-        for beta in betas:
-            output = sigmoid(gain * (beta / BETA_MAX) + bias)
-            drives.bend[beta_key(beta), j] = weights[BEND_INPUT, j] * output
         _tabulate_camera(weights, off, on, j, drives.camera)
         _tabulate_words(weights, off, on, j, codes, drives.words)
+    for beta in betas:
+        output = sigmoid(gain * (beta / BETA_MAX) + bias)
+        for j in range(count):
+            drives.bend[beta_key(beta), j] = weights[BEND_INPUT, j] * output
 
 
 @compiled
