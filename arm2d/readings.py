@@ -11,7 +11,7 @@ from functools import cache
 from itertools import pairwise
 from math import degrees
 from numbers import Integral, Real
-from typing import Any, Literal, get_args, get_origin, get_type_hints
+from typing import Any, Final, Literal, get_args, get_origin, get_type_hints
 
 TURN_LATTICE = 2**44
 LARGEST_WHOLE = 10**300  # beyond, a whole number is not turned into a float
@@ -125,12 +125,12 @@ class Readings:
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, Any]) -> Readings:
-        """Readings from plain values, as read from a config file.
+        """Readings from plain values, as read from a config file; what it does not name is as in `PLAIN`.
 
         Raises:
             ValueError: If a name is unknown or a value is not one of its readings.
         """
-        return cls().with_values(values)
+        return PLAIN.with_values(values)
 
     def with_values(self, values: Mapping[str, Any]) -> Readings:
         """These readings with some fields replaced; see `from_mapping` for what is refused."""
@@ -232,6 +232,34 @@ def _as_default(value: Any, default: Any) -> Any:
     return float(value) if isinstance(default, float) else value
 
 
-# `printed` takes the paper at its word wherever the word can run. The default does so already but
+PLAIN: Final = Readings(
+    mutation_probability=0.4,
+    mutation_sd=0.1,
+    parent_scaling="raw",
+    ties="elders",
+    crossover=0.0,
+    bias_ranges="symmetric",
+    tau_exponent_max=2.0,
+    object_radius=5.0,
+    sector_half_width=10.0,
+    start_areas="between",
+    start_half_width=4.0,
+    sector_centres=(30.0, 90.0, 150.0),
+    bound_vision="at",
+    object_vision="centre",
+    camera_origin="J1",
+    turn="degrees",
+    success="f1_f2",
+    run_counting="uninterrupted",
+    indicate_angle="narrow",
+    f3_time="end",
+    ignore_stops="early",
+    starts_shared="generation",
+    collision_penalty="ratio",
+)
+"""The first alternative of every entry in the ledger, whatever the default is: what one reading at a time is
+compared with, and what a config file means that does not name a reading."""
+
+# `printed` takes the paper at its word wherever the word can run. The plain readings do so already but
 # in one place: section VI lists an early end for INDICATE, TOUCH and MOVE, not for IGNORE.
-PRESETS = {"default": Readings(), "printed": Readings(ignore_stops="never")}
+PRESETS: Final = {"default": Readings(), "printed": replace(PLAIN, ignore_stops="never")}

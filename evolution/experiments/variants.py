@@ -10,10 +10,12 @@ from itertools import count, takewhile
 from typing import Any, Final
 
 from arm2d import Condition, Readings
+from arm2d.readings import PLAIN
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
 DEFAULT_NAME: Final = "default"
+PLAIN_NAME: Final = "plain"
 LONGEST_NAME: Final = 200
 LEAST_WIDTH: Final = 8  # of a name that is cut
 # A condition's name would make a variant's folder look like an experiment of one variant.
@@ -47,16 +49,17 @@ def variant_name(readings: Readings, settings: Settings | None = None, common: S
     """What is special about readings and settings, fit for a folder, such as `object-radius-8`.
 
     Args:
-        readings: Named wherever they differ from the default readings.
+        readings: Named wherever they differ from the default readings; or from the plain ones, after the word
+            `plain`, if they differ in fewer from those.
         settings: Named wherever they differ from `common`; by default not at all.
         common: By default the paper's settings.
 
     Returns:
         Field names with dashes and their values, joined by `+`; `default` if nothing is special.
     """
-    parts = [value_name(name, value) for name, value in _differences(readings, Readings())]
+    parts = min(_parts(readings, Readings()), [PLAIN_NAME, *_parts(readings, PLAIN)], key=len)
     if settings is not None:
-        parts += [value_name(name, value) for name, value in _differences(settings, common or Settings())]
+        parts += _parts(settings, common or Settings())
     return "+".join(parts) or DEFAULT_NAME
 
 
@@ -125,10 +128,10 @@ def _same(short: dict[str, str]) -> list[list[str]]:
     return [[name for name in short if short[name] == each] for each, n in times.items() if n > 1]
 
 
-def _differences(record: Any, base: Any) -> list[tuple[str, Any]]:
-    """Names and values of the fields in which a record differs from another."""
+def _parts(record: Any, base: Any) -> list[str]:
+    """Name and value of every field in which a record differs from another."""
     values = [(each.name, getattr(record, each.name)) for each in fields(base)]
-    return [(name, value) for name, value in values if value != getattr(base, name)]
+    return [value_name(name, value) for name, value in values if value != getattr(base, name)]
 
 
 def _plain(value: Any) -> str:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings
+from arm2d.readings import PLAIN
 from evolution.report.columns import PlainTable
 from evolution.results.statistics import sign_flip_test
 from evolution.study.measures import RunMeasures
@@ -73,7 +74,7 @@ def effects(variants: Sequence[VariantMeasures]) -> list[Effect]:
         if not alike or len(differing) != 1:
             continue
         (name,) = differing
-        if getattr(_readings(without), name) == getattr(Readings(), name):
+        if getattr(_readings(without), name) == getattr(PLAIN, name):
             key = (changed.condition, name, getattr(_readings(changed), name))
             found.setdefault(key, []).append((without, changed))
     listed = [Effect(*key, tuple(pairs)) for key, pairs in found.items()]

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Final, Protocol, TypeVar
 
 from arm2d import Readings
+from arm2d.readings import PLAIN
 from evolution.agents.firsts import NEVER
 from evolution.report.columns import PlainTable
 from evolution.runs.storage import make_folder, write_atomically
@@ -75,7 +76,7 @@ def reading_columns() -> dict[str, Callable[[Any], str]]:
 
 def readings_of(told: Mapping[str, str]) -> Readings:
     """The readings that these columns tell; raises ValueError."""
-    return Readings().with_values({name: _value(name, told[name]) for name in READINGS})
+    return PLAIN.with_values({name: _value(name, told[name]) for name in READINGS})
 
 
 def write_table(columns: Columns[R], runs: Iterable[R], path: Path) -> None:

@@ -6,10 +6,11 @@ A reading is compared by its effect on the published figures, never by taste (sp
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 from arm2d import Condition, Readings
+from arm2d.readings import PLAIN
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
@@ -75,7 +76,7 @@ class Part:
 
     Attributes:
         name: On the command line.
-        worlds: That are compared; the default is among them, except in the confirmation.
+        worlds: That are compared; the plain readings are among them, except in the confirmation.
         conditions: In which each is evolved.
         seeds: Runs of each variant and condition.
         generations: Of each run.
@@ -102,23 +103,22 @@ class Part:
 
 def screening() -> Part:
     """Every alternative of the ledger, one at a time, and the geometry in depth."""
-    changed = [Readings().with_values(each) for each in (*FACTORS, *GEOMETRY)]
-    return Part("screening", (Readings(), *changed))
+    changed = [PLAIN.with_values(each) for each in (*FACTORS, *GEOMETRY)]
+    return Part("screening", (PLAIN, *changed))
 
 
 def finalists(nearest: Sequence[Readings]) -> Part:
-    """The whole experiment under the default and under the readings that came nearest to the paper."""
-    default = Readings()
-    others = [world for world in nearest if world != default]
-    return Part("finalists", (default, *others), tuple(Condition), seeds=10, generations=6000)
+    """The whole experiment under the plain readings and under those that came nearest to the paper."""
+    others = [world for world in nearest if world != PLAIN]
+    return Part("finalists", (PLAIN, *others), tuple(Condition), seeds=10, generations=6000)
 
 
 def around() -> Part:
     """Other sizes of mutations, and every alternative of the ledger by itself on top of the favourite."""
-    favourite = Readings().with_values(FAVOURITE)
-    sizes = [Readings(mutation_sd=size) for size in SIZES]
+    favourite = PLAIN.with_values(FAVOURITE)
+    sizes = [replace(PLAIN, mutation_sd=size) for size in SIZES]
     changed = [favourite.with_values(each) for each in FACTORS if not set(each) & set(NO_FACTORS_AROUND)]
-    return Part("around", (Readings(), *sizes, *changed))
+    return Part("around", (PLAIN, *sizes, *changed))
 
 
 def confirmation(nearest: Sequence[Readings]) -> Part:
@@ -134,7 +134,7 @@ def confirmation(nearest: Sequence[Readings]) -> Part:
             "the confirmation needs two variants to choose from, and one is measured around the favourite; "
             "go on with: wordarm study readings --part around"
         )
-    (first, second), default = nearest[:2], Readings().to_mapping()
-    special = {name: value for name, value in second.to_mapping().items() if value != default[name]}
+    (first, second), plain = nearest[:2], PLAIN.to_mapping()
+    special = {name: value for name, value in second.to_mapping().items() if value != plain[name]}
     worlds = dict.fromkeys([first, second, first.with_values(special)])
     return Part("confirmation", tuple(worlds), tuple(Condition), seeds=10, generations=6000, first_seed=11)

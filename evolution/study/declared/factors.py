@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Readings
+from arm2d.readings import PLAIN
 
 RESTARTS: Final = 8
 
@@ -100,7 +101,7 @@ def world_of(levels: Sequence[str], factors: Sequence[Factor] = FACTORS) -> Read
     values: dict[str, Any] = {}
     for factor, level in zip(factors, levels, strict=True):
         values |= factor.levels[level]
-    return Readings().with_values(values)
+    return PLAIN.with_values(values)
 
 
 # The default at the time of the declaration, whatever becomes of it.
