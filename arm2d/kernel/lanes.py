@@ -5,9 +5,12 @@ constant distances in one array let LLVM see that they do not overlap, so loops 
 The drive of the words heard stands apart, in rows, one for each lane: `d[row_of(inter) * i]` and on.
 """
 
+import re
 from typing import Final
 
+import numba
 import numpy as np
+from llvmlite.binding import get_host_cpu_name
 from numpy.typing import NDArray
 
 # What the kernel's arguments are, when they are arrays.
@@ -15,9 +18,21 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 N_LANES: Final = 32
-# Loops run over whole blocks of lanes, as many as the widest vectors hold (AVX-512), so that none is left for
-# a loop one by one; idle lanes hold the finite values of an ended trial.
-BLOCK: Final = 8
+
+
+def _lanes_of_a_vector() -> int:
+    """How many lanes LLVM puts into a vector: eight where it takes 512 bits, as for AMD's Zen 4 and later.
+
+    For Intel's processors with AVX-512 it keeps to 256.
+    """
+    processor = numba.config.CPU_NAME or get_host_cpu_name()  # type: ignore[attr-defined]
+    zen = re.fullmatch(r"znver(\d+)", processor)
+    return 8 if zen and int(zen[1]) >= 4 else 4
+
+
+# Loops run over whole blocks of lanes, so that none is left to be done alone; idle lanes hold the finite
+# values of an ended trial. No result depends on it.
+BLOCK: Final = _lanes_of_a_vector()
 
 # Fields of `s`.
 ALPHA: Final = 0 * N_LANES  # angle of S1 [deg]
