@@ -80,7 +80,7 @@ TESTS: Final[dict[str, tuple[str, ...]]] = {
     "evolution/results/comparisons.py": ("tests/evolution/results",),
     "evolution/study/declared/regression.py": ("tests/evolution/study/declared/test_regression.py",),
     "evolution/study/declared/beta_binomial.py": ("tests/evolution/study/declared",),
-    "evolution/study/declared/verdict.py": ("tests/evolution/study/declared",),
+    "evolution/study/declared/confirmation/verdict.py": ("tests/evolution/study/declared",),
     "evolution/runs/*.py": RUNS,
     "mujoco_port/reach/*.py": ("tests/mujoco_port/reach",),
     # A session goes on with other words in mid-trial, which nobody else does.

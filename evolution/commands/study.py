@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 BEFORE: Final = {"confirmation": "finalists"}
 
 
+# Of `evolution.study.declared.study`, which is loaded late.
+DECLARED_PARTS: Final = ("factorial", "fresh", "decision", "less-one", "hundred")
+
+
 @dataclass(frozen=True)
 class StudyCommand:
     """Evolve under many readings of the paper and compare what each does; or evolve what lies beyond it.
@@ -39,15 +43,24 @@ class StudyCommand:
     other tasks, larger networks, more and less held out (docs/beyond.md)."""
 
     part: Literal[
-        "screening", "finalists", "around", "confirmation", "factorial", "fresh", "less-one", "hundred"
+        "screening",
+        "finalists",
+        "around",
+        "confirmation",
+        "factorial",
+        "fresh",
+        "decision",
+        "less-one",
+        "hundred",
     ] = "screening"
     """Of the study readings. Parts of the first: screening (3000 generations, one reading at a time and the
     geometry in depth), finalists (the whole experiment under the default and the three that came nearest to
     the paper), around (as the screening, on top of the favoured size of mutations) and confirmation (the
     whole experiment under the two that came nearest around it, and both together, with fresh seeds). Of the
     declared one (docs/declaration.md): factorial (all readings mixed), fresh (the worlds it puts nearest to
-    the paper and others, with fresh seeds), less-one (the winner with one departure taken back at a time) and
-    hundred (a hundred runs of either condition under the default)."""
+    the paper and others, with fresh seeds), decision (the nearest of these against the printed readings, with
+    seeds of its own), less-one (the nearest with one departure taken back at a time) and hundred (a hundred
+    runs of either condition under the default)."""
 
     output: Path | None = None
     """Folder of the study, by default runs/readings or runs/beyond. Each part has a folder in it."""
@@ -89,7 +102,7 @@ class StudyCommand:
 
         if self.name == "beyond":
             return self._run_beyond()
-        if self.part in ("factorial", "fresh", "less-one", "hundred"):
+        if self.part in DECLARED_PARTS:
             return self._run_declared()
         if self.rows is not None or self.early:
             raise ValueError(f"--rows and --early are for declared parts, which {self.part} is not")

@@ -11,7 +11,15 @@ from arm2d import Condition, Readings
 from evolution.report.columns import PlainTable
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.study.declared.claim import answer_table, answers, averaged_over_worlds, verdict
-from evolution.study.declared.confirmation import (
+from evolution.study.declared.confirmation.decision import WINNER, decision, judged
+from evolution.study.declared.confirmation.verdict import (
+    Verdict,
+    decide,
+    duel_table,
+    less_one_table,
+    world_table,
+)
+from evolution.study.declared.confirmation.worlds import (
     DEFAULT,
     LESS_ONE_SEEDS,
     PRINTED,
@@ -29,9 +37,8 @@ from evolution.study.declared.parts import GENERATIONS, DeclaredPart, factorial
 from evolution.study.declared.plan import RowFile
 from evolution.study.declared.results import chosen_worlds, regressions, write_factorial
 from evolution.study.declared.rows import MeasuredRun, write_rows
-from evolution.study.declared.verdict import Verdict, decide, duel_table, less_one_table, world_table
 
-PARTS: Final = ("factorial", "fresh", "less-one", "hundred")
+PARTS: Final = ("factorial", "fresh", "decision", "less-one", "hundred")
 ROWS: Final = "rows.csv"
 Written = tuple[list[Path], list[str]]  # files, and sentences
 
@@ -60,6 +67,8 @@ class DeclaredStudy:
         """
         if name == "fresh":
             return fresh(self._chosen, self._whole)
+        if name == "decision":
+            return decision(self._decided[1], self._whole)
         if name == "less-one":
             return less_one(self._decided[1], self._whole)
         return hundred(Readings(), self._whole) if name == "hundred" else factorial(self._short)
@@ -82,6 +91,7 @@ class DeclaredStudy:
         write_rows(runs, rows)
         writer = {
             "fresh": self._write_fresh,
+            "decision": self._write_decision,
             "less-one": self._write_less_one,
             "hundred": self._write_hundred,
         }
@@ -92,9 +102,26 @@ class DeclaredStudy:
         worlds = fresh_worlds(self._chosen)
         own = runs_of_worlds(runs, worlds)
         found = decide(own, spreads(self._factorial))
-        tables = {"fresh-worlds": world_table(own, worlds, found), "fresh-duels": duel_table(found)}
-        whole = len(runs) == len(self.part("fresh").configs)
-        return _write(tables.items(), results), [found.sentence if whole else f"so far: {found.sentence}"]
+        tables = {
+            "fresh-worlds": world_table(own, worlds, found.distances, found.beats),
+            "fresh-duels": duel_table(found.duels),
+        }
+        return _write(tables.items(), results), [self._said("fresh", runs, found.sentence)]
+
+    def _write_decision(self, runs: Sequence[MeasuredRun], results: Path) -> Written:
+        winner = self._decided[1]
+        own, found = judged(runs, winner, spreads(self._factorial))
+        worlds = {WINNER: winner, PRINTED: PRINTED_WORLD}
+        chosen = [WINNER] if found.is_default else []
+        tables = {
+            "decision-worlds": world_table(own, worlds, found.distances, chosen),
+            "decision-duels": duel_table(found.duels),
+        }
+        return _write(tables.items(), results), [self._said("decision", runs, found.sentence)]
+
+    def _said(self, name: str, runs: Sequence[MeasuredRun], sentence: str) -> str:
+        """A sentence on a part, marked where not all of its runs are measured."""
+        return sentence if len(runs) == len(self.part(name).configs) else f"so far: {sentence}"
 
     def _write_less_one(self, runs: Sequence[MeasuredRun], results: Path) -> Written:
         winner = self._decided[1]

@@ -9,7 +9,7 @@ from arm2d import ActionWord, Condition, Instruction, ObjectWord, Readings, Task
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.study.beyond.cells import BY_NAME, CELLS, FOUR, GENERATIONS, PAPER, SEEDS, beyond, cell_of
-from evolution.study.declared.confirmation import FRESH_SEEDS, HUNDRED_SEEDS
+from evolution.study.declared.confirmation.worlds import FRESH_SEEDS, HUNDRED_SEEDS
 from evolution.study.declared.parts import factorial
 from tests.docs.pages import DOCS
 

@@ -21,7 +21,7 @@ from evolution.study.declared.claim import (
     shares_by_world,
     verdict,
 )
-from evolution.study.declared.confirmation import hundred
+from evolution.study.declared.confirmation.worlds import hundred
 from evolution.study.declared.parts import DeclaredPart
 from evolution.study.declared.plan import RowFile, carry_out
 from evolution.study.declared.regression import Estimate

@@ -9,7 +9,9 @@ import pytest
 
 from arm2d import Condition, Readings
 from evolution.cli import main
-from evolution.study.declared.confirmation import (
+from evolution.study.declared.confirmation.decision import WINNER, decision, judged
+from evolution.study.declared.confirmation.verdict import decide, duel_table, less_one_table, world_table
+from evolution.study.declared.confirmation.worlds import (
     DEFAULT,
     PRINTED,
     SMALLEST_DEPARTURE,
@@ -26,7 +28,6 @@ from evolution.study.declared.nearest import spreads
 from evolution.study.declared.parts import factorial
 from evolution.study.declared.results import chosen_worlds, regressions
 from evolution.study.declared.rows import write_rows
-from evolution.study.declared.verdict import decide, duel_table, less_one_table, world_table
 from tests.evolution.study.declared.synthetic import made_up, runs_with_effects
 
 CHOSEN = [Readings(parent_scaling="rank"), Readings(crossover=0.3, mutation_sd=0.03)]
@@ -153,16 +154,75 @@ def test_duels_are_corrected_together(spread):
     assert len(found.duels) == 5 * 2 * 2
     for each in found.duels:
         assert each.p <= each.corrected <= 1
-    rows = list(csv.DictReader(duel_table(found).to_csv().splitlines()))
+    rows = list(csv.DictReader(duel_table(found.duels).to_csv().splitlines()))
     assert len(rows) == 20
-    worlds = fresh_worlds(CHOSEN)
-    table = list(
-        csv.DictReader(
-            world_table(runs_of_worlds(made_fresh({"b"}), worlds), worlds, found).to_csv().splitlines()
-        )
-    )
+    own, worlds = runs_of_worlds(made_fresh({"b"}), fresh_worlds(CHOSEN)), fresh_worlds(CHOSEN)
+    table = list(csv.DictReader(world_table(own, worlds, found.distances, found.beats).to_csv().splitlines()))
     assert len(table) == 14
     assert {row["world"] for row in table if row["beats printed"] == "yes"} == {"b"}
+
+
+def made_decision(plateaus, tops, seeds=range(131, 151), noise=0.02):
+    """Runs in which the winner, world B, and the printed readings have these means, by condition."""
+    rng, part, runs = np.random.default_rng(5), decision(WORLD_B), []
+    for config in part.configs:
+        if config.seed in seeds:
+            which = part.names[config.readings], config.condition
+            shares = [max(0.0, tops[which] + rng.normal(0, noise)), 0.05, 0.02, 0.001]
+            runs.append(made_up(config, plateaus[which] + rng.normal(0, noise), shares))
+    return runs
+
+
+INDICATE, IGNORE = Condition
+BOTH_AT_THE_TOP = {
+    (WINNER, INDICATE): 2.55, (PRINTED, INDICATE): 2.30, (WINNER, IGNORE): 2.55, (PRINTED, IGNORE): 2.54,
+}  # fmt: skip
+NEARER = {(WINNER, INDICATE): 0.6, (PRINTED, INDICATE): 0.1, (WINNER, IGNORE): 0.6, (PRINTED, IGNORE): 0.6}
+
+
+def test_decision_asks_the_winner_and_the_printed_readings_with_seeds_nobody_has_run():
+    part = decision(WORLD_A)
+    assert len(part.configs) == len(set(part.configs)) == 120
+    assert set(part.names.values()) == {WINNER, PRINTED}
+    others = [fresh(CHOSEN), factorial(), less_one(WORLD_A), hundred(WORLD_A)]
+    assert not {c.seed for c in part.configs} & {c.seed for other in others for c in other.configs}
+    assert "seeds 131 to 160" in PAGE
+
+
+def test_default_may_change_to_what_is_better_in_one_condition_and_no_worse_in_the_other(spread):
+    _, found = judged(made_decision(BOTH_AT_THE_TOP, NEARER), WORLD_B, spread)
+    assert found.is_default
+    assert found.sentence.endswith("than the printed readings: it is to be the default")
+
+
+@pytest.mark.parametrize(
+    ("plateaus", "tops", "missed"),
+    [
+        ({(WINNER, INDICATE): 2.30}, {}, "better With-Indicate"),
+        ({}, {(WINNER, INDICATE): 0.1}, "better With-Indicate"),
+        ({(WINNER, IGNORE): 2.50}, {}, "no worse With-Ignore"),
+        ({}, {(WINNER, IGNORE): 0.5}, "no worse With-Ignore"),
+        ({}, {(PRINTED, INDICATE): 0.6, (WINNER, INDICATE): 1.4}, "nearer to the paper"),
+    ],
+)
+def test_default_stays_if_one_of_three_things_is_not_shown(plateaus, tops, missed, spread):
+    _, found = judged(made_decision({**BOTH_AT_THE_TOP, **plateaus}, {**NEARER, **tops}), WORLD_B, spread)
+    assert not found.is_default
+    assert missed in found.sentence
+    assert found.sentence.endswith("than the printed readings: the default stays")
+
+
+@pytest.mark.parametrize(
+    ("figure", "lower", "holds"),
+    [("plateau", 0.015, True), ("plateau", 0.025, False), ("top", 0.045, True), ("top", 0.055, False)],
+)
+def test_a_little_less_than_the_margin_is_no_worse(figure, lower, holds, spread):
+    """With hardly any noise an interval ends near the mean difference."""
+    plateaus, tops = dict(BOTH_AT_THE_TOP), dict(NEARER)
+    changed = plateaus if figure == "plateau" else tops
+    changed[WINNER, IGNORE] = changed[PRINTED, IGNORE] - lower
+    _, found = judged(made_decision(plateaus, tops, noise=0.001), WORLD_B, spread)
+    assert found.no_worse == holds
 
 
 def test_less_one_takes_back_one_departure_at_a_time():
@@ -234,6 +294,20 @@ def test_confirmation_is_written_by_one_command(study, capsys):
         "fresh-worlds.csv",
         "fresh.csv",
     ]
+
+
+@pytest.mark.slow
+def test_decision_is_written_by_one_command(study, capsys):
+    (study / "decision").mkdir()
+    write_rows(made_decision(BOTH_AT_THE_TOP, NEARER), study / "decision" / "rows.csv")
+    assert main(["study", "readings", "--part=decision", f"--output={study}", "--now", "--early"]) == 0
+    said = capsys.readouterr().out
+    assert "so far: the winner is better With-Indicate, no worse With-Ignore, nearer to the paper" in said
+    with (study / "decision" / "results" / "decision-worlds.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    told = [(row["world"], row["runs"], row["beats printed"]) for row in rows]
+    assert told == [(WINNER, "20", "yes")] * 2 + [(PRINTED, "20", "no")] * 2
+    assert (study / "decision" / "results" / "decision-duels.csv").is_file()
 
 
 @pytest.mark.slow

@@ -5,7 +5,7 @@ Rules as declared in docs/declaration.md. Axes: R runs.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -17,7 +17,7 @@ from evolution.experiments.variants import variant_name
 from evolution.report.columns import PlainTable
 from evolution.results.statistics import compare, mean_interval, sign_flip_test
 from evolution.search.randomness import Purpose, generator
-from evolution.study.declared.confirmation import CANDIDATES, PRINTED, RunsOfWorlds
+from evolution.study.declared.confirmation.worlds import CANDIDATES, PRINTED, RunsOfWorlds
 from evolution.study.declared.nearest import distance
 from evolution.study.declared.outcomes import FIGURES, OUTCOMES, PLATEAU, TOP_SHARES, Outcome
 from evolution.study.declared.regression import Estimate, estimate_columns
@@ -73,7 +73,9 @@ class Verdict:
         """The verdict in words."""
         if self.winner in self.beats:
             return f"the winner, {self.winner}, beats the printed readings: it is to be the default"
-        return f"the winner, {self.winner}, does not beat the printed readings: the default stays"
+        return (
+            f"the winner, {self.winner}, does not beat the printed readings: by this rule the default stays"
+        )
 
 
 def decide(runs: RunsOfWorlds, spreads: Spreads) -> Verdict:
@@ -82,26 +84,33 @@ def decide(runs: RunsOfWorlds, spreads: Spreads) -> Verdict:
     Raises:
         ValueError: If a world has fewer than two runs of a condition.
     """
+    check_two_runs(runs)
+    distances = {name: distance_of(own, spreads) for name, own in runs.items()}
+    candidates = [name for name in CANDIDATES if name in runs]
+    fought = duels(runs, candidates)
+    beats = [
+        name
+        for name in candidates
+        if distances[name] < distances[PRINTED]
+        and all(
+            each.corrected < STRICT and each.difference.value > 0 for each in fought if each.world == name
+        )
+    ]
+    return Verdict(distances, min(candidates, key=distances.__getitem__), tuple(fought), tuple(beats))
+
+
+def check_two_runs(runs: RunsOfWorlds) -> None:
+    """Refuse a world with fewer than two runs of a condition."""
     for name, own in runs.items():
         for condition, found in own.items():
             if len(found) < 2:
                 raise ValueError(
                     f"{len(found)} runs of {name} {condition} are measured; the verdict needs two"
                 )
-    distances = {name: _distance(own, spreads) for name, own in runs.items()}
-    candidates = [name for name in CANDIDATES if name in runs]
-    duels = _duels(runs, candidates)
-    beats = [
-        name
-        for name in candidates
-        if distances[name] < distances[PRINTED]
-        and all(each.corrected < STRICT and each.difference.value > 0 for each in duels if each.world == name)
-    ]
-    return Verdict(distances, min(candidates, key=distances.__getitem__), tuple(duels), tuple(beats))
 
 
 def world_table(
-    runs: RunsOfWorlds, worlds: Mapping[str, Readings], verdict: Verdict
+    runs: RunsOfWorlds, worlds: Mapping[str, Readings], distances: Mapping[str, float], beats: Sequence[str]
 ) -> PlainTable[_RunsOfWorld]:
     """One row per world and condition: its figures with 95 % bootstrap intervals over runs."""
     figures = (
@@ -127,8 +136,8 @@ def world_table(
                 run.counts["fully compositional"] > 0 for run in row.runs
             ),
             **{name: column for columns in figures for name, column in columns.items()},
-            "distance": lambda row: f"{verdict.distances[row.world]:.4f}",
-            "beats printed": lambda row: "yes" if row.world in verdict.beats else "no",
+            "distance": lambda row: f"{distances[row.world]:.4f}",
+            "beats printed": lambda row: "yes" if row.world in beats else "no",
         },
         [
             _RunsOfWorld(name, condition, found)
@@ -138,7 +147,7 @@ def world_table(
     )
 
 
-def duel_table(verdict: Verdict) -> PlainTable[Duel]:
+def duel_table(fought: Sequence[Duel]) -> PlainTable[Duel]:
     """One row per duel."""
     return PlainTable(
         {
@@ -149,7 +158,7 @@ def duel_table(verdict: Verdict) -> PlainTable[Duel]:
             "p": lambda duel: f"{duel.p:.2g}",
             "after Holm": lambda duel: f"{duel.corrected:.2g}",
         },
-        verdict.duels,
+        fought,
     )
 
 
@@ -203,16 +212,18 @@ class _Cost:
     corrected: float
 
 
-def _distance(own: Mapping[Condition, Sequence[MeasuredRun]], spreads: Spreads) -> float:
-    """Of measured means."""
+def distance_of(own: Mapping[Condition, Sequence[MeasuredRun]], spreads: Spreads) -> float:
+    """The distance of measured means from the published ones."""
     means = {c: np.array([[f.values(runs).mean() for f in FIGURES]]) for c, runs in own.items()}
     return float(distance(means, spreads)[0])
 
 
-def _duels(runs: RunsOfWorlds, candidates: Sequence[str]) -> list[Duel]:
-    """Every candidate against the printed readings."""
+def duels(
+    runs: RunsOfWorlds, candidates: Sequence[str], conditions: Iterable[Condition] = Condition
+) -> list[Duel]:
+    """Every candidate against the printed readings, in these conditions; p are corrected over all of them."""
     what = [
-        (name, condition, outcome) for name in candidates for condition in Condition for outcome in JUDGED
+        (name, condition, outcome) for name in candidates for condition in conditions for outcome in JUDGED
     ]
     found = [
         compare(o.values(runs[name][c]), o.values(runs[PRINTED][c]), generator(0, Purpose.STATISTICS))
