@@ -73,9 +73,8 @@ class Verdict:
         """The verdict in words."""
         if self.winner in self.beats:
             return f"the winner, {self.winner}, beats the printed readings: it is to be the default"
-        return (
-            f"the winner, {self.winner}, does not beat the printed readings: by this rule the default stays"
-        )
+        missed = "does not beat the printed readings in all that is asked: by this rule the default stays"
+        return f"the winner, {self.winner}, {missed}"
 
 
 def decide(runs: RunsOfWorlds, spreads: Spreads) -> Verdict:

@@ -121,7 +121,10 @@ def is_last_of_b(run):
 def test_default_stays_where_nothing_is_better(spread):
     found = decided(set(), spread)
     assert found.beats == ()
-    assert "does not beat the printed readings: the default stays" in found.sentence
+    assert (
+        "does not beat the printed readings in all that is asked: by this rule the default stays"
+        in found.sentence
+    )
 
 
 def test_world_that_is_better_in_one_condition_only_does_not_beat_the_printed(spread):
