@@ -59,6 +59,12 @@ def evolved() -> np.ndarray:
 
 
 @pytest.fixture(scope="session")
+def evolved_plain(evolved) -> np.ndarray:
+    """Genotypes [60, 84] that were evolved under the plain readings: for worlds that depart from these."""
+    return evolved
+
+
+@pytest.fixture(scope="session")
 def evolved_agent(evolved) -> np.ndarray:
     """The best [84] of the With-Indicate run that got furthest."""
     return evolved[15]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from arm2d import Readings
-from arm2d.readings import choices
+from arm2d.readings import PLAIN, PRESETS, choices
 from evolution.cli import COMMANDS, GROUPS, MOVED, main, overview, parse
 from evolution.commands.evolve import Evolve
 from evolution.runs.folder import RunFolder
@@ -99,7 +99,7 @@ def test_single_readings_can_be_set_on_top_of_a_preset():
     readings = run_of(["--preset=printed", "--readings.turn=radians"]).readings
     assert readings == Readings.preset("printed").with_values({"turn": "radians"})
     readings = run_of(["--readings.ignore-stops=early", "--preset=printed"]).readings
-    assert readings == Readings.preset("default")
+    assert readings == PLAIN
 
 
 def test_conditions_are_understood_in_any_spelling():
@@ -168,7 +168,7 @@ def test_a_sound_run_needs_no_repair(run, capsys):
             ["evolve", "--condition=with-shout"],
             "unknown condition 'with-shout'; there are with-indicate, with-i",
         ),
-        (["evolve", "--preset=mine"], "unknown preset of readings 'mine'; there are default, printed"),
+        (["evolve", "--preset=mine"], f"unknown preset of readings 'mine'; there are {', '.join(PRESETS)}"),
         (["evolve", "--population=3"], "setting population = 3 must lie in [5, 10000]"),
         (["evolve", "--seed=-1"], "seed = -1 must be a whole number from 0 to 2**63 - 1"),
         (["evolve", "--readings.object-radius=20"], "reading object_radius = 20 must lie in [0.1, 11.8]"),

@@ -9,6 +9,7 @@ RIGHT, MIDDLE, LEFT = (
     {word: arm2d.INPUT_NAMES.index(f"camera {side} {word} [0 or 1]") for word in ("blue", "green", "red")}
     for side in ("right", "middle", "left")
 )
+BEND = arm2d.INPUT_NAMES.index("bend [beta / 90 degrees]")
 
 
 class ByHand:
@@ -32,8 +33,8 @@ class ByHand:
             return self.way, 0
         if self.action == "indicate":
             return 0, 0
-        if inputs[0] == 0:  # nothing touches the forearm's right side: let it come down
-            return 0, -1
+        if inputs[0] == 0:  # nothing at the forearm's right side: let it come down, then feel there
+            return (-1 if inputs[BEND] == 0 else 0), -1
         return (-1 if self.action == "move" else 0), 0
 
 

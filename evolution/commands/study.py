@@ -225,7 +225,7 @@ class StudyCommand:
 def _plan(part: Part, folder: Path) -> Plan:
     from evolution.experiments.plan import Plan
 
-    return Plan(folder / part.name, tuple(part.configs()), post_evaluate=False)
+    return Plan(folder / part.name, tuple(part.configs()), post_evaluate=False, names=part.names)
 
 
 def _evolve_and_measure(

@@ -1,8 +1,9 @@
 """What one reading changes by itself, seed by seed.
 
-Two worlds that differ in one reading only, one of them with its default, make a pair. Runs of one seed begin
-with the same genotypes in both, and in every other world: so a seed gives one number, its mean difference
-over the pairs, and seeds are what is counted. Looking at many readings at once is paid for by Holm's method.
+Two worlds that differ in one reading only, one of them with its plain value, make a pair. Runs of one seed
+begin with the same genotypes in both, and in every other world: so a seed gives one number, its mean
+difference over the pairs, and seeds are what is counted. Looking at many readings at once is paid for by
+Holm's method.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ Pair = tuple[VariantMeasures, VariantMeasures]
 
 @dataclass(frozen=True)
 class Effect:
-    """One reading against its default.
+    """One reading against its plain value.
 
     Attributes:
         condition: Of the runs.

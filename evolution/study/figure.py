@@ -100,7 +100,7 @@ def effects_figure(variants: Sequence[Drawn], base: Drawn | None = None) -> Figu
 
 
 def _compared_with(variants: Sequence[Drawn]) -> str | None:
-    """The variant that the others are compared with: what most of them stand on, else the default."""
+    """The variant that the others are compared with: what most of them stand on, else the plain one."""
     names = [variant.name for variant in variants]
     return next((name for name in (base_of(variants), DEFAULT) if name in names), None)
 

@@ -28,7 +28,7 @@ class VariantMeasures:
     """All runs of one variant in one condition.
 
     Attributes:
-        name: Of the variant: the readings that differ from the default, or `default`.
+        name: Of the variant: the readings that differ from the plain ones, or `default`.
         condition: Of its runs.
         generations: Of each run.
         runs: One or more, by seed.

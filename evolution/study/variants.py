@@ -1,4 +1,4 @@
-"""The worlds and algorithms that the study of readings compares: the default with some readings changed.
+"""The worlds and algorithms that the study of readings compares: the plain readings with some changed.
 
 A reading is compared by its effect on the published figures, never by taste (spec section 12).
 """
@@ -11,6 +11,7 @@ from typing import Any, Final
 
 from arm2d import Condition, Readings
 from arm2d.readings import PLAIN
+from evolution.experiments.variants import DEFAULT_NAME, Variant, departures
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
@@ -89,6 +90,15 @@ class Part:
     seeds: int = 8
     generations: int = 3000
     first_seed: int = 1
+
+    @property
+    def names(self) -> dict[Variant, str]:
+        """Of the variants, as they were when these parts were run and the plain readings were the default."""
+        settings = Settings(generations=self.generations)
+        return {
+            Variant(world, settings): "+".join(departures(world, PLAIN)) or DEFAULT_NAME
+            for world in self.worlds
+        }
 
     def configs(self) -> list[RunConfig]:
         """Every run of this part, seed by seed, so that all variants are known early if not well."""

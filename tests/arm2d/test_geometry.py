@@ -1,11 +1,12 @@
 """Geometry in plain Python: what it gives all around the arm, against vectors and the kernel's arithmetic."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from arm2d import Readings
 from arm2d.arithmetic import bearing
 from arm2d.geometry import (
     bearing_of,
@@ -19,6 +20,7 @@ from arm2d.geometry import (
     s2_pose,
     to_s2,
 )
+from arm2d.readings import PLAIN
 
 ANGLES, BENDS = st.floats(-30, 210), st.floats(0, 90)
 DIRECTIONS, DISTANCES = st.floats(-89.9, 269.9), st.floats(1, 500)
@@ -62,7 +64,7 @@ def test_d_is_the_smaller_angle_between_s1_and_a_bearing(alpha, direction, dista
 def test_an_offset_seen_from_the_end_of_s1_is_positive_to_the_left(alpha, offset, distance):
     joint = np.array(point(alpha, 100.0))
     centre = joint + point(alpha + offset, distance)
-    end, first = Readings(camera_origin="end"), Readings()
+    end, first = replace(PLAIN, camera_origin="end"), PLAIN
     assert offset_from_end(alpha, tuple(centre)) == pytest.approx(offset, abs=1e-6)
     assert distance_from_end(alpha, tuple(centre)) == pytest.approx(distance, abs=1e-9)
     np.testing.assert_allclose(camera_offsets(np.array(alpha), centre, end), offset, atol=1e-6)
@@ -74,4 +76,4 @@ def test_an_offset_seen_from_the_end_of_s1_is_positive_to_the_left(alpha, offset
 @given(ANGLES, st.floats(-179.9, 179.9))
 def test_an_offset_seen_from_j1_does_not_depend_on_the_distance(alpha, offset):
     centres = np.array([point(alpha + offset, distance) for distance in (3.0, 150.0)])
-    np.testing.assert_allclose(camera_offsets(np.full(2, alpha), centres, Readings()), offset, atol=1e-9)
+    np.testing.assert_allclose(camera_offsets(np.full(2, alpha), centres, PLAIN), offset, atol=1e-9)

@@ -48,8 +48,8 @@ def test_a_recorded_trial_says_what_was_asked_and_what_became_of_it(evolved_agen
 
 def test_readings_show_only_what_is_not_the_default_and_read_back():
     assert repr(Readings()) == "Readings()"
-    other = Readings(object_radius=8.0, start_areas="bounds")
-    assert repr(other) == "Readings(object_radius=8.0, start_areas='bounds')"
+    other = Readings(object_radius=3.0, start_areas="bounds")
+    assert repr(other) == "Readings(object_radius=3.0, start_areas='bounds')"
     assert eval(repr(other), {"Readings": Readings}) == other
 
 

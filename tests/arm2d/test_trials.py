@@ -1,19 +1,22 @@
 """Drawing trials (spec section 2) and the record that holds them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from arm2d import Condition, LabelChanges, Readings, Trials, draw_trials
+from arm2d import Condition, LabelChanges, Trials, draw_trials
+from arm2d.readings import PLAIN
 from arm2d.trials import _chord_ends
 
 INSTRUCTIONS = Condition.WITH_INDICATE.instructions
 
 
 def draw(readings=None, per_area=50, seed=0):
-    return draw_trials(INSTRUCTIONS, per_area, readings or Readings(), np.random.default_rng(seed))
+    return draw_trials(INSTRUCTIONS, per_area, readings or PLAIN, np.random.default_rng(seed))
 
 
-@pytest.mark.parametrize("readings", [Readings(), Readings(start_areas="bounds")])
+@pytest.mark.parametrize("readings", [PLAIN, replace(PLAIN, start_areas="bounds")])
 def test_half_of_each_instructions_trials_start_in_each_area(readings):
     (right, left), trials = readings.start_intervals, draw(readings)
     alpha = trials.alpha.reshape(9, 2, 50)
@@ -24,7 +27,7 @@ def test_half_of_each_instructions_trials_start_in_each_area(readings):
 
 @pytest.mark.parametrize("half_width", [3.0, 10.0])
 def test_discs_lie_on_the_chords_of_their_sectors(half_width):
-    readings = Readings(sector_half_width=half_width)
+    readings = replace(PLAIN, sector_half_width=half_width)
     discs = draw(readings).discs
     for disc, centre in enumerate(readings.sector_centres):
         axis = np.radians(centre)
@@ -170,4 +173,4 @@ def test_so_many_trials_that_no_memory_holds_them_are_refused():
 
 def test_what_is_kept_for_the_next_draw_cannot_be_changed():
     with pytest.raises(ValueError, match="read-only"):
-        _chord_ends(Readings())[:] = 0.0
+        _chord_ends(PLAIN)[:] = 0.0

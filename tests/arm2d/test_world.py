@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from arm2d import ActionWord, ObjectWord, Readings, record_trial
+from arm2d import ActionWord, ObjectWord, record_trial
+from arm2d.readings import PLAIN
 from tests.arm2d.controllers import one_trial, steady_controller
 
 MOVE, TOUCH, INDICATE, IGNORE = ActionWord
@@ -13,7 +14,7 @@ UNBEND = (0, -1)
 
 
 def play(turns, action=INDICATE, target=GREEN, alpha=60.0, discs=None, **readings):
-    chosen = Readings().with_values(readings)
+    chosen = PLAIN.with_values(readings)
     trial = one_trial(action, target, alpha, discs or {GREEN: (150.0, 90.0)})
     return record_trial(steady_controller(*turns, chosen), trial, chosen)
 

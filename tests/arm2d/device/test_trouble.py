@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 import warp as wp
 
-from arm2d import Condition, Readings, draw_trials, run_trials
+from arm2d import Condition, draw_trials, run_trials
 from arm2d.device import opening
 from arm2d.device.errors import DeviceLostError, DeviceMemoryError
 from arm2d.device.groups import Group, Laboratory
 from arm2d.device.opening import CHECK, check_name, open_device
+from arm2d.readings import PLAIN
 from evolution.search.algorithm import mean_in_order
 
 LARGEST = 4 * 7 * 2 * 3  # trials of three groups of four genotypes
@@ -24,10 +25,14 @@ def fresh(laboratory):
 
 
 @pytest.fixture
-def groups(evolved):
-    rng, readings = np.random.default_rng(4), Readings()
+def groups(evolved_plain):
+    rng, readings = np.random.default_rng(4), PLAIN
     return [
-        Group(evolved[n : n + 4], draw_trials(Condition.WITH_IGNORE.experienced, 1, readings, rng), readings)
+        Group(
+            evolved_plain[n : n + 4],
+            draw_trials(Condition.WITH_IGNORE.experienced, 1, readings, rng),
+            readings,
+        )
         for n in range(7)
     ]
 

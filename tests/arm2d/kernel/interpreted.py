@@ -1,10 +1,13 @@
 """Kernel and reference side by side in the plain interpreter; run by test_interpreted.py, which says why."""
 
+from dataclasses import replace
+
 import numba
 import numpy as np
 import pytest
 
-from arm2d import Condition, LabelChanges, Readings, Trials, VectorWorld, draw_trials, record_trial
+from arm2d import Condition, LabelChanges, Trials, VectorWorld, draw_trials, record_trial
+from arm2d.readings import PLAIN
 from tests.arm2d.kernel.test_kernel import disagreements
 
 READINGS = [
@@ -31,22 +34,22 @@ def test_nothing_is_compiled_here():
 
 
 @pytest.mark.parametrize("alternative", READINGS, ids=str)
-def test_kernel_and_reference_agree(alternative, evolved):
-    readings = Readings().with_values(alternative)
+def test_kernel_and_reference_agree(alternative, evolved_plain):
+    readings = PLAIN.with_values(alternative)
     rng = np.random.default_rng([12, READINGS.index(alternative)])
     instructions = {each: None for condition in Condition for each in condition.instructions}
     trials = draw_trials(list(instructions), 2, readings, rng)
     assert len(trials) == 48  # more than there are lanes
     for each in (trials, with_changes(trials[:24], rng)):
-        assert not list(disagreements(evolved[rng.choice(len(evolved), 1)], each, readings))
+        assert not list(disagreements(evolved_plain[rng.choice(len(evolved_plain), 1)], each, readings))
 
 
 @pytest.mark.parametrize("camera", ["J1", "end"])
-def test_a_world_that_is_stepped_ends_as_the_kernel_does(camera, evolved):
+def test_a_world_that_is_stepped_ends_as_the_kernel_does(camera, evolved_plain):
     """Two blocks of lanes, the second of them not full."""
-    readings = Readings(camera_origin=camera)
+    readings = replace(PLAIN, camera_origin=camera)
     trials = draw_trials(Condition.WITH_INDICATE.instructions, 2, readings, np.random.default_rng(3))
-    records = [record_trial(evolved[t % 60], trials[t], readings) for t in range(len(trials))]
+    records = [record_trial(evolved_plain[t % 60], trials[t], readings) for t in range(len(trials))]
     world = VectorWorld(trials, readings)
     for k in range(max(record.steps for record in records)):
         turns = np.zeros((len(trials), 2), int)

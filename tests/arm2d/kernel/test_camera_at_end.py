@@ -7,18 +7,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from arm2d import ActionWord, LabelChanges, ObjectWord, Readings, record_trial
+from arm2d import ActionWord, LabelChanges, ObjectWord, record_trial
 from arm2d.geometry import camera_offsets, in_view
 from arm2d.kernel import lanes as at
 from arm2d.kernel.camera_at_end import look_from_end, look_in_lane
 from arm2d.kernel.contact import place_disc
 from arm2d.kernel.world import world_of
+from arm2d.readings import PLAIN
 from tests.arm2d.controllers import one_trial, steady_controller
 
 MOVE, TOUCH, INDICATE, IGNORE = ActionWord
 BLUE, GREEN, RED = ObjectWord
 STILL, LEFT_TURN, RIGHT_TURN, UNBEND = (0, 0), (1, 0), (-1, 0), (0, -1)
-J1, END = Readings(), Readings(camera_origin="end")
+J1, END = PLAIN, replace(PLAIN, camera_origin="end")
 
 
 def play(turns, discs, action=INDICATE, alpha=60.0, readings=END):

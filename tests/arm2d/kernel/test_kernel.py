@@ -1,6 +1,6 @@
 """The compiled kernel against the plain reference, and its promises: same bits, no influence."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -9,13 +9,12 @@ from arm2d import (
     Condition,
     Instruction,
     LabelChanges,
-    Readings,
     Trials,
     draw_trials,
     record_trial,
     run_trials,
 )
-from arm2d.readings import choices
+from arm2d.readings import PLAIN, choices
 from arm2d.reference import run_trial
 
 # Every alternative of the ledger that changes a trial, one at a time.
@@ -45,10 +44,10 @@ SEEN_FROM_THE_END = [
 TRIALS_PER_ALTERNATIVE = -(-8_000 // len(ALTERNATIVES))
 
 
-def genotypes_of(evolved, n, rng):
-    """A quarter random, the rest evolved genotypes, [n, 84]: what is random seldom touches anything."""
+def genotypes_of(evolved_plain, n, rng):
+    """A quarter random, the rest evolved_plain genotypes, [n, 84]: what is random seldom touches anything."""
     random = rng.random((-(-n // 4), 84))
-    return np.concatenate([random, evolved[rng.choice(len(evolved), n - len(random))]])
+    return np.concatenate([random, evolved_plain[rng.choice(len(evolved_plain), n - len(random))]])
 
 
 def disagreements(genotypes, trials, readings):
@@ -76,37 +75,37 @@ def changes_of(trials, t):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("alternative", ALTERNATIVES, ids=str)
-def test_kernel_and_reference_agree_on_ten_thousand_trials_of_all_readings(alternative, evolved):
-    readings = Readings().with_values(alternative)
+def test_kernel_and_reference_agree_on_thousands_of_trials_of_all_readings(alternative, evolved_plain):
+    readings = PLAIN.with_values(alternative)
     rng = np.random.default_rng([7, ALTERNATIVES.index(alternative)])
     for condition in Condition:
         trials = draw_trials(condition.instructions, 1, readings, rng)
-        genotypes = genotypes_of(evolved, -(-TRIALS_PER_ALTERNATIVE // (2 * len(trials))), rng)
+        genotypes = genotypes_of(evolved_plain, -(-TRIALS_PER_ALTERNATIVE // (2 * len(trials))), rng)
         assert not list(disagreements(genotypes, trials, readings))
 
 
-def test_readings_of_the_search_change_no_trial(evolved):
-    trials = draw_trials(Condition.WITH_INDICATE.instructions, 2, Readings(), np.random.default_rng(2))
-    scores = run_trials(evolved[:10], trials, Readings())
+def test_readings_of_the_search_change_no_trial(evolved_plain):
+    trials = draw_trials(Condition.WITH_INDICATE.instructions, 2, PLAIN, np.random.default_rng(2))
+    scores = run_trials(evolved_plain[:10], trials, PLAIN)
     for name in OF_EVOLUTION_ONLY:
         for word in choices()[name][1:]:
-            other = run_trials(evolved[:10], trials, Readings().with_values({name: word}))
+            other = run_trials(evolved_plain[:10], trials, PLAIN.with_values({name: word}))
             assert np.array_equal(other.fitness, scores.fitness), (name, word)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("alternative", SEEN_FROM_THE_END, ids=str)
-def test_kernel_and_reference_agree_on_a_thousand_trials_seen_from_the_end_of_s1(alternative, evolved):
-    readings = Readings(camera_origin="end").with_values(alternative)
+def test_kernel_and_reference_agree_on_a_thousand_trials_seen_from_the_end_of_s1(alternative, evolved_plain):
+    readings = replace(PLAIN, camera_origin="end").with_values(alternative)
     rng = np.random.default_rng([11, SEEN_FROM_THE_END.index(alternative)])
     for condition in Condition:
         trials = draw_trials(condition.instructions, 2, readings, rng)
         assert len(trials) == 36
-        assert not list(disagreements(genotypes_of(evolved, 14, rng), trials, readings))
+        assert not list(disagreements(genotypes_of(evolved_plain, 14, rng), trials, readings))
 
 
-@pytest.mark.parametrize("readings", [Readings(), Readings(camera_origin="end")], ids=["J1", "end"])
-def test_kernel_and_reference_agree_where_words_change_in_mid_trial(readings, evolved):
+@pytest.mark.parametrize("readings", [PLAIN, replace(PLAIN, camera_origin="end")], ids=["J1", "end"])
+def test_kernel_and_reference_agree_where_words_change_in_mid_trial(readings, evolved_plain):
     rng = np.random.default_rng(8)
     drawn = draw_trials(Condition.WITH_INDICATE.instructions, 4, readings, rng)
     n = len(drawn)
@@ -114,14 +113,14 @@ def test_kernel_and_reference_agree_where_words_change_in_mid_trial(readings, ev
         rng.integers(0, 3, n), drawn.objects, drawn.actions, rng.integers(0, 3, n), rng.integers(0, 10, n)
     )
     trials = Trials(drawn.actions, drawn.objects, drawn.alpha, drawn.discs, changes)
-    genotypes = genotypes_of(evolved, 8, rng)
+    genotypes = genotypes_of(evolved_plain, 8, rng)
     assert not list(disagreements(genotypes, trials, readings))
     unchanged = run_trials(genotypes, drawn, readings)
     assert not np.array_equal(run_trials(genotypes, trials, readings).fitness, unchanged.fitness)
 
 
-@pytest.mark.parametrize("readings", [Readings(), Readings(camera_origin="end")], ids=["J1", "end"])
-def test_kernel_and_reference_agree_where_discs_start_at_or_in_s2(readings, evolved):
+@pytest.mark.parametrize("readings", [PLAIN, replace(PLAIN, camera_origin="end")], ids=["J1", "end"])
+def test_kernel_and_reference_agree_where_discs_start_at_or_in_s2(readings, evolved_plain):
     rng = np.random.default_rng(10)
     drawn = draw_trials(Condition.WITH_INDICATE.instructions, 2, readings, rng)
     angles, distances = rng.uniform(50, 150, (2, len(drawn), 3))
@@ -130,14 +129,14 @@ def test_kernel_and_reference_agree_where_discs_start_at_or_in_s2(readings, evol
         [np.cos(np.radians(angles)), np.sin(np.radians(angles))], -1
     )
     trials = Trials(drawn.actions, drawn.objects, drawn.alpha, discs)
-    assert not list(disagreements(genotypes_of(evolved, 12, rng), trials, readings))
+    assert not list(disagreements(genotypes_of(evolved_plain, 12, rng), trials, readings))
 
 
 @pytest.fixture(scope="module")
-def population(evolved):
+def population(evolved_plain):
     rng = np.random.default_rng(9)
-    return genotypes_of(evolved, 30, rng), draw_trials(
-        Condition.WITH_INDICATE.instructions, 5, Readings(), rng
+    return genotypes_of(evolved_plain, 30, rng), draw_trials(
+        Condition.WITH_INDICATE.instructions, 5, PLAIN, rng
     )
 
 
@@ -215,9 +214,9 @@ def test_recording_more_than_one_trial_is_refused(population):
 
 
 @pytest.mark.parametrize("threads", [1, 2])
-def test_genotypes_with_trials_of_their_own_score_as_one_by_one(evolved, threads):
-    readings, rng = Readings(), np.random.default_rng(12)
-    genotypes, instructions = genotypes_of(evolved, 3, rng), Condition.WITH_IGNORE.instructions
+def test_genotypes_with_trials_of_their_own_score_as_one_by_one(evolved_plain, threads):
+    readings, rng = PLAIN, np.random.default_rng(12)
+    genotypes, instructions = genotypes_of(evolved_plain, 3, rng), Condition.WITH_IGNORE.instructions
     together = draw_trials(instructions * 3, 1, readings, np.random.default_rng(6))
     one_by_one = np.random.default_rng(6)
     found = run_trials(genotypes, together, readings, each_own=True, threads=threads)
@@ -227,7 +226,7 @@ def test_genotypes_with_trials_of_their_own_score_as_one_by_one(evolved, threads
             np.testing.assert_array_equal(getattr(found, name)[p : p + 1], values, name)
 
 
-def test_trials_that_cannot_be_shared_out_among_genotypes_are_refused(evolved):
-    trials = draw_trials("touch red", 2, Readings(), np.random.default_rng(1))
+def test_trials_that_cannot_be_shared_out_among_genotypes_are_refused(evolved_plain):
+    trials = draw_trials("touch red", 2, PLAIN, np.random.default_rng(1))
     with pytest.raises(ValueError, match="3 genotypes cannot have as many trials of their own each of 4"):
-        run_trials(evolved[:3], trials, Readings(), each_own=True)
+        run_trials(evolved_plain[:3], trials, PLAIN, each_own=True)

@@ -3,16 +3,17 @@
 import numpy as np
 import pytest
 
-from arm2d import Condition, Readings, draw_trials, run_trials
+from arm2d import Condition, draw_trials, run_trials
+from arm2d.readings import PLAIN
 from benchmarks import numpy_peer
 from benchmarks.kernel import alike
 
 
 @pytest.fixture(scope="module")
-def generation(evolved):
-    """Six evolved genotypes and all instructions of a condition, one trial each from either area."""
-    trials = draw_trials(Condition.WITH_IGNORE.instructions, 1, Readings(), np.random.default_rng(4))
-    return evolved[::10], trials, Readings()
+def generation(evolved_plain):
+    """Six evolved_plain genotypes and all instructions of a condition, one trial each from either area."""
+    trials = draw_trials(Condition.WITH_IGNORE.instructions, 1, PLAIN, np.random.default_rng(4))
+    return evolved_plain[::10], trials, PLAIN
 
 
 @pytest.mark.parametrize("sparse", [False, True])

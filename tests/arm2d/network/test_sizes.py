@@ -7,8 +7,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from arm2d import Condition, Readings, check_genotypes, decode, draw_trials, encode, record_trial, run_trials
+from arm2d import Condition, check_genotypes, decode, draw_trials, encode, record_trial, run_trials
 from arm2d.network.genes import SIZES, genes_of
+from arm2d.readings import PLAIN
 from arm2d.reference import run_trial
 from arm2d.tasks.task import Task
 from evolution.search.algorithm import breed, choose_parents, initial_genotypes, mean_in_order
@@ -27,7 +28,7 @@ WORLDS = [
 @cache
 def a_little_evolved(n_inter):
     """Genotypes [100, G] after forty generations: of these some touch objects."""
-    settings, readings, rng = Settings(inter_neurons=n_inter), Readings(), np.random.default_rng(n_inter)
+    settings, readings, rng = Settings(inter_neurons=n_inter), PLAIN, np.random.default_rng(n_inter)
     genotypes = initial_genotypes(settings, rng)
     for _ in range(40):
         trials = draw_trials(Condition.WITH_INDICATE.experienced, 1, readings, rng)
@@ -64,7 +65,7 @@ def test_each_gene_moves_exactly_one_parameter_of_such_a_network(n_inter):
     count = genes_of(n_inter).count
     moved = np.full((count, count), 0.5)
     np.fill_diagonal(moved, 0.75)
-    before, after = decode(np.full(count, 0.5), Readings()), decode(moved, Readings())
+    before, after = decode(np.full(count, 0.5), PLAIN), decode(moved, PLAIN)
     changes = [
         (getattr(after, each.name) != getattr(before, each.name)).reshape(count, -1).sum(axis=1)
         for each in fields(before)
@@ -76,13 +77,13 @@ def test_each_gene_moves_exactly_one_parameter_of_such_a_network(n_inter):
 @pytest.mark.parametrize("n_inter", SIZES_TRIED)
 def test_encoding_such_a_decoded_genotype_gives_it_back(n_inter):
     genotypes = np.random.default_rng(2).random((20, genes_of(n_inter).count))
-    np.testing.assert_allclose(encode(decode(genotypes, Readings()), Readings()), genotypes, atol=1e-14)
+    np.testing.assert_allclose(encode(decode(genotypes, PLAIN), PLAIN), genotypes, atol=1e-14)
 
 
 @pytest.mark.parametrize("world", WORLDS, ids=str)
 @pytest.mark.parametrize("n_inter", SIZES_TRIED)
 def test_kernel_and_reference_agree_for_every_size(n_inter, world):
-    readings, rng = Readings().with_values(world), np.random.default_rng(n_inter)
+    readings, rng = PLAIN.with_values(world), np.random.default_rng(n_inter)
     touching = 0
     for condition in Condition:
         trials = draw_trials(condition.instructions, 1, readings, rng)
@@ -99,11 +100,11 @@ def test_kernel_and_reference_agree_for_every_size(n_inter, world):
 
 
 @pytest.mark.parametrize("n_inter", [5, 16])
-def test_neurons_that_nobody_listens_to_do_not_change_a_bit(n_inter, evolved):
+def test_neurons_that_nobody_listens_to_do_not_change_a_bit(n_inter, evolved_plain):
     rng = np.random.default_rng(n_inter)
-    trials = draw_trials(Condition.WITH_INDICATE.instructions, 4, Readings(), rng)
-    larger = np.array([embedded(genotype, n_inter, rng) for genotype in evolved[:20]])
-    found, expected = run_trials(larger, trials), run_trials(evolved[:20], trials)
+    trials = draw_trials(Condition.WITH_INDICATE.instructions, 4, PLAIN, rng)
+    larger = np.array([embedded(genotype, n_inter, rng) for genotype in evolved_plain[:20]])
+    found, expected = (run_trials(each, trials, PLAIN) for each in (larger, evolved_plain[:20]))
     assert expected.success.mean() > 0.5
     for each in fields(expected):
         np.testing.assert_array_equal(getattr(found, each.name), getattr(expected, each.name))
@@ -112,11 +113,12 @@ def test_neurons_that_nobody_listens_to_do_not_change_a_bit(n_inter, evolved):
 @pytest.mark.parametrize("n_inter", SIZES_TRIED)
 def test_a_recording_holds_the_states_of_all_inter_neurons(n_inter):
     genotypes = a_little_evolved(n_inter)
-    trials = draw_trials(["touch red"], 1, Readings(), np.random.default_rng(1))
-    record, scores = record_trial(genotypes[0], trials[0]), run_trials(genotypes[0], trials)
+    trials = draw_trials(["touch red"], 1, PLAIN, np.random.default_rng(1))
+    record = record_trial(genotypes[0], trials[0], PLAIN)
+    scores = run_trials(genotypes[0], trials, PLAIN)
     assert record.states.shape == (record.steps, n_inter)
     assert (record.steps, record.fitness) == (scores.steps[0, 0], scores.fitness[0, 0])
-    nets, y = decode(genotypes[0], Readings()), np.zeros(n_inter)
+    nets, y = decode(genotypes[0], PLAIN), np.zeros(n_inter)
     for inputs, states in zip(record.inputs, record.states, strict=True):
         s = 1 / (1 + np.exp(-(nets.gain[0] * inputs + nets.input_bias[0])))
         z = 1 / (1 + np.exp(-(y + nets.inter_biases[0])))
@@ -127,12 +129,12 @@ def test_a_recording_holds_the_states_of_all_inter_neurons(n_inter):
 
 def test_words_in_sequence_are_heard_by_all_inter_neurons():
     task, rng = Task(words="action-first", word_steps=5), np.random.default_rng(3)
-    trials = draw_trials(task.instructions, 1, Readings(), rng, task)
+    trials = draw_trials(task.instructions, 1, PLAIN, rng, task)
     genotypes = a_little_evolved(5)[:3]
-    scores = run_trials(genotypes, trials, threads=2)
+    scores = run_trials(genotypes, trials, PLAIN, threads=2)
     for p, genotype in enumerate(genotypes):
         for t, instruction in enumerate(trials.instructions):
-            plain = run_trial(genotype, instruction, trials.alpha[t], trials.discs[t], Readings(), task=task)
+            plain = run_trial(genotype, instruction, trials.alpha[t], trials.discs[t], PLAIN, task=task)
             assert (scores.success[p, t], scores.steps[p, t]) == (plain.success, plain.steps)
 
 

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 import arm2d
-from arm2d import Condition, Instruction, LabelChanges, Readings, Task, draw_trials, record_trial, run_trials
+from arm2d import Condition, Instruction, LabelChanges, Task, draw_trials, record_trial, run_trials
 from arm2d.kernel.world import WORD_CODES
+from arm2d.readings import PLAIN
 from arm2d.reference import run_trial
 from arm2d.tasks.task import as_paper, papers_condition, read_task, task_of
 
-READINGS = Readings()
+READINGS = PLAIN
 TASKS = [
     Task(third="both"),
     Task(places="dealt"),
@@ -74,8 +75,8 @@ def test_different_tasks_have_different_names_however_long():
 
 
 @pytest.mark.parametrize("task", TASKS, ids=str)
-def test_kernel_and_reference_agree_on_it(task, evolved):
-    genotypes = np.concatenate([evolved[::3], np.random.default_rng(1).random((3, 84))])
+def test_kernel_and_reference_agree_on_it(task, evolved_plain):
+    genotypes = np.concatenate([evolved_plain[::3], np.random.default_rng(1).random((3, 84))])
     trials = draw_trials(task.instructions, 1, READINGS, np.random.default_rng(2), task)
     scores = run_trials(genotypes, trials, READINGS)
     for p, genotype in enumerate(genotypes):
@@ -85,21 +86,25 @@ def test_kernel_and_reference_agree_on_it(task, evolved):
             assert found.f1 + found.f2 + found.f3 == pytest.approx(scores.fitness[p, t], abs=1e-9)
 
 
-def test_words_matter_where_they_are_all_that_differs(evolved):
+def test_words_matter_where_they_are_all_that_differs(evolved_plain):
     """The same starts, said in four ways, end in four ways."""
     plain = draw_trials(Condition.WITH_INDICATE.instructions, 5, READINGS, np.random.default_rng(2))
     tasks = [None, TASKS[2], TASKS[3], Task(codes=("touch 111",))]
     ends = [
-        run_trials(evolved, arm2d.Trials(plain.actions, plain.objects, plain.alpha, plain.discs, task=task))
+        run_trials(
+            evolved_plain,
+            arm2d.Trials(plain.actions, plain.objects, plain.alpha, plain.discs, task=task),
+            READINGS,
+        )
         for task in tasks
     ]
     assert len({each.fitness.tobytes() for each in ends}) == len(tasks)
 
 
-def test_words_come_one_after_the_other_and_then_silence(evolved):
+def test_words_come_one_after_the_other_and_then_silence(evolved_plain):
     task = Task(words="action-first", word_steps=20)
     trials = draw_trials("indicate green", 1, READINGS, np.random.default_rng(2), task)
-    heard = record_trial(evolved[0], trials[0]).inputs[:, 12:].astype(int).tolist()
+    heard = record_trial(evolved_plain[0], trials[0], READINGS).inputs[:, 12:].astype(int).tolist()
     assert len(heard) > 41
     assert all(bits == [0, 0, 0, 1, 1, 0] for bits in heard[:20])
     assert all(bits == [1, 0, 1, 0, 0, 0] for bits in heard[20:40])
@@ -125,10 +130,10 @@ def test_colours_are_dealt_to_the_sectors_so_that_all_six_orders_come_up():
 
 
 @pytest.mark.parametrize("task", TASKS, ids=str)
-def test_the_world_to_be_stepped_gives_what_the_kernel_senses(task, evolved):
+def test_the_world_to_be_stepped_gives_what_the_kernel_senses(task, evolved_plain):
     trials = draw_trials(task.instructions[-4:], 1, READINGS, np.random.default_rng(4), task)
-    records = [record_trial(evolved[1], trials[t]) for t in range(len(trials))]
-    worlds = arm2d.VectorWorld(trials)
+    records = [record_trial(evolved_plain[1], trials[t], READINGS) for t in range(len(trials))]
+    worlds = arm2d.VectorWorld(trials, READINGS)
     for step in range(max(record.steps for record in records)):
         for t, record in enumerate(records):
             if step < record.steps:
@@ -138,7 +143,7 @@ def test_the_world_to_be_stepped_gives_what_the_kernel_senses(task, evolved):
     assert worlds.scores().success[0].tolist() == [record.success for record in records]
 
 
-def test_one_world_takes_a_task(evolved):
+def test_one_world_takes_a_task():
     world = arm2d.World(task=TASKS[2])
     assert world.reset("touch green", seed=1)[12:].tolist() == [1, 0, 1, 0, 0, 0]
     for _ in range(3):

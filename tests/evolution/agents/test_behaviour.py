@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from arm2d import (
     record_trial,
 )
 from arm2d.arithmetic import sigmoid
+from arm2d.readings import PLAIN
 from evolution.agents.behaviour import draw_behaviour_trials, record_behaviour
 from evolution.agents.lineage_scores import offsets
 from evolution.agents.variance import events_of, shares_by_event
@@ -43,15 +46,15 @@ def test_activity_is_the_output_of_the_recorded_states(behaviour, evolved_agent)
 def test_trials_stand_in_the_order_of_instructions_and_areas(behaviour):
     assert np.bincount(behaviour.instructions).tolist() == [10] * 9
     right = behaviour.alpha[behaviour.areas == 0, 0]
-    assert right.min() >= 56
-    assert right.max() <= 64
+    assert right.min() >= 60 - READINGS.start_half_width
+    assert right.max() <= 60 + READINGS.start_half_width
     touch_red = behaviour.of(Instruction(ActionWord.TOUCH, ObjectWord.RED))
     assert set(behaviour.actions[touch_red]) == {1}
     assert set(behaviour.objects[touch_red]) == {2}
 
 
 def test_first_sight_is_that_of_a_camera_at_the_end_of_s1(evolved_agent):
-    end = Readings(camera_origin="end")
+    end = replace(PLAIN, camera_origin="end")
     behaviour = record_behaviour(evolved_agent, INDICATE, end, per_area=1)
     trials, n_seen, n_later = draw_behaviour_trials(INDICATE, end, 1, 0), 0, 0
     for trial, first in enumerate(behaviour.first_sight):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from arm2d import NON_EXPERIENCED, Condition, Readings, draw_trials, record_trial, run_trials
+from arm2d.readings import PLAIN
 from evolution.agents.parts import late_history, late_spans
 from evolution.agents.postevaluation import POST_EVALUATION
 from evolution.agents.subtasks import AgentClass
@@ -42,12 +43,12 @@ def test_action_transition_is_scored_by_the_later_word_and_object_transition_by_
         assert each.before.object != each.after.object
 
 
-def test_words_change_once_within_ten_steps_of_first_sight(evolved_agent):
+def test_words_change_once_within_ten_steps_of_first_sight(evolved_plain):
     transitions = action_transitions(Condition.WITH_INDICATE)
-    trials = draw_transition_trials(transitions, Readings(), np.random.default_rng(0))
+    trials = draw_transition_trials(transitions, PLAIN, np.random.default_rng(0))
     seen = 0
     for t in range(0, len(trials), 40):
-        record = record_trial(evolved_agent, trials[t])
+        record = record_trial(evolved_plain[15], trials[t], PLAIN)
         target = record.discs[1:, record.instruction.object]
         bearing = np.degrees(np.arctan2(target[:, 1], target[:, 0]))
         in_view = np.abs(bearing - record.alpha[1:]) <= 15

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from arm2d import Condition, Readings
+from arm2d.readings import PRESETS
 from evolution.child import calling, python
 from evolution.cli import main, parse
 from evolution.experiments.live_table import duration, plain_lines
@@ -143,7 +144,7 @@ def test_a_preset_is_the_start_of_its_readings():
         (["--jobs=0"], "asked for 0 processes at a time; there must be at least 1"),
         (["--generations=0"], "setting generations = 0 must lie in [1, 1000000]"),
         (["--readings.object-radius=20"], "reading object_radius = 20 must lie in"),
-        (["--preset=mine"], "unknown preset of readings 'mine'; there are default, printed"),
+        (["--preset=mine"], f"unknown preset of readings 'mine'; there are {', '.join(PRESETS)}"),
         (["--output={file}"], "cannot be made: it is a file; choose another folder"),
     ],
 )

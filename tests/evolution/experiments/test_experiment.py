@@ -30,17 +30,19 @@ population = 10
 elites = 2
 parents = 5
 [readings]
-object_radius = [5, 8]
+sector_half_width = [10, 5]
 """
 SMALL = Settings(population=10, elites=2, parents=5, generations=120)
 RUNS = [
-    f"{variant}/with-indicate/seed-000{seed}" for seed in (1, 2) for variant in ("default", "object-radius-8")
+    f"{variant}/with-indicate/seed-000{seed}"
+    for seed in (1, 2)
+    for variant in ("default", "sector-half-width-5")
 ]
 
 
 @pytest.fixture
 def file(tmp_path):
-    path = tmp_path / "radius.toml"
+    path = tmp_path / "width.toml"
     path.write_text(FILE)
     return path
 
@@ -56,7 +58,7 @@ def alone(tmp_path_factory):
     """The same runs, each evolved alone in this process, without plan, workers or folders of variants."""
     folder = tmp_path_factory.mktemp("alone")
     for path in RUNS:
-        readings = Readings(object_radius=8.0 if "radius" in path else 5.0)
+        readings = Readings(sector_half_width=5.0 if "width" in path else 10.0)
         evolve(folder / path, RunConfig(seed=int(path[-1]), settings=SMALL, readings=readings))
     return results_of(folder)
 
@@ -64,7 +66,7 @@ def alone(tmp_path_factory):
 @pytest.fixture(scope="session")
 def done(tmp_path_factory):
     """A finished experiment and what was printed."""
-    path = tmp_path_factory.mktemp("done") / "radius.toml"
+    path = tmp_path_factory.mktemp("done") / "width.toml"
     path.write_text(FILE)
     folder = path.parent / "out"
     command = [sys.executable, "-m", "evolution", "experiment", str(path), f"--output={folder}"]
@@ -93,7 +95,7 @@ def test_a_finished_experiment_returns_at_once_and_starts_no_process(done, file,
 @pytest.mark.slow
 def test_a_run_that_was_given_up_is_named_and_is_no_success(file, tmp_path, capsys):
     """The only part of one run is cut short; the other run goes on to its end."""
-    file.write_text(FILE.replace("[5, 8]", "5"))
+    file.write_text(FILE.replace("[10, 5]", "10"))
     damaged = tmp_path / "out" / "with-indicate" / "seed-0001"
     stop = iter([False] * 110 + [True] * 2)
     assert evolve(damaged, RunConfig(seed=1, settings=SMALL), Watcher(wants_stop=stop.__next__)) == 110
@@ -113,8 +115,12 @@ def test_an_experiment_can_grow_and_status_knows_runs_that_were_not_started(done
     assert main(["experiment", str(file), f"--output={folder}", "--seeds=1-3", "--dry-run"]) == 0
     listed = capsys.readouterr().out
     variant, other, whole, count = listed.splitlines()
-    assert re.fullmatch(r"default          3 x 120 generations, 2 done, about \d+ s in one process", variant)
-    assert re.fullmatch(r"object-radius-8  3 x 120 generations, 2 done, about \d+ s in one process", other)
+    assert re.fullmatch(
+        r"default              3 x 120 generations, 2 done, about \d+ s in one process", variant
+    )
+    assert re.fullmatch(
+        r"sector-half-width-5  3 x 120 generations, 2 done, about \d+ s in one process", other
+    )
     assert re.fullmatch(r"about \d+ s in \d+ processes, by the pace of the runs so far", whole)
     assert count == f"{folder}: 6 runs, 2 variants x 1 condition x 3 seeds"
     assert not (folder / "default" / "with-indicate" / "seed-0003").exists()
@@ -163,7 +169,7 @@ def kill(pid):
 @pytest.mark.slow
 def test_each_variant_is_an_experiment_of_its_own(done, capsys):
     folder, _ = done
-    assert main(["status", str(folder / "object-radius-8")]) == 0
+    assert main(["status", str(folder / "sector-half-width-5")]) == 0
     assert capsys.readouterr().out.startswith("2 of 2 runs done, 0 at work\n")
     assert main(["analyse", str(folder)]) == 2
     assert f"holds 2 variants, which are looked at one by one; give the folder of one, such as {folder}" in (
@@ -178,11 +184,11 @@ def test_status_counts_runs_that_wait_and_runs_nobody_planned(done, tmp_path, ca
     moved.mkdir()
     (moved / "plan.toml").write_bytes((folder / "plan.toml").read_bytes())
     (moved / "default").symlink_to(folder / "default")
-    (moved / "stranger").symlink_to(folder / "object-radius-8")
+    (moved / "stranger").symlink_to(folder / "sector-half-width-5")
     assert main(["status", str(moved)]) == 0
     output = capsys.readouterr().out
     assert output.startswith("4 of 6 runs done, 0 at work, ")
-    assert re.search(r"object-radius-8, with-indicate, seed 1 +waiting +0 of 120", output)
+    assert re.search(r"sector-half-width-5, with-indicate, seed 1 +waiting +0 of 120", output)
     assert re.search(r"stranger, with-indicate, seed 2 +done +120 of 120", output)
 
 

@@ -2,11 +2,13 @@
 
 import re
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from arm2d import Readings
+from arm2d.readings import PLAIN, PRESETS
 from evolution.cli import main
 from evolution.experiments.grid import experiment_from_mapping, read_experiment
 from evolution.experiments.plan import Plan
@@ -49,13 +51,13 @@ def test_every_list_is_a_factor_and_a_variant_is_called_after_what_is_special(wr
         generations = 600
         population = [50, 100]
         [readings]
-        object_radius = [5, 8]
+        mutation_sd = [0.1, 0.03]
         """)
     )
     assert len(set(folders(spec))) == 2 * 3 * 2 * 2
     assert {each.settings.generations for each in spec.configs()} == {600}
     assert set(spec.plan().variants.values()) == {
-        "default", "object-radius-8", "population-50", "object-radius-8+population-50",
+        "default", "mutation-sd-0.03", "population-50", "mutation-sd-0.03+population-50",
     }  # fmt: skip
     assert folders(spec)[0] == "population-50/with-indicate/seed-0003"
 
@@ -89,7 +91,7 @@ def test_variants_go_before_the_whole_file_and_lists_in_them_are_grids_of_their_
     names = spec.plan().variants
     assert list(names.values()) == ["default", "wide+mutation-sd-0.1", "wide+mutation-sd-0.03"]
     variants = {name: variant for variant, name in names.items()}
-    assert variants["default"] == Variant(Readings(ignore_stops="never", object_radius=8.0), Settings())
+    assert variants["default"] == Variant(replace(PLAIN, ignore_stops="never", object_radius=8.0), Settings())
     wide = variants["wide+mutation-sd-0.03"]
     assert (wide.readings.object_radius, wide.readings.mutation_sd, wide.settings.population) == (
         5.0,
@@ -126,10 +128,10 @@ def test_a_plan_that_cannot_be_understood_is_named(text, tmp_path):
 
 
 def test_a_plan_cannot_lead_out_of_its_folder(tmp_path):
-    plan = Plan(tmp_path, (RunConfig(), RunConfig(readings=Readings(object_radius=8.0))))
+    plan = Plan(tmp_path, (RunConfig(), RunConfig(readings=Readings(object_radius=3.0))))
     write_plan(plan)
     text = (tmp_path / "plan.toml").read_text()
-    (tmp_path / "plan.toml").write_text(text.replace('"object-radius-8"', '"../../elsewhere"'))
+    (tmp_path / "plan.toml").write_text(text.replace('"object-radius-3"', '"../../elsewhere"'))
     with pytest.raises(ValueError, match="cannot be a folder's"):
         read_plan(tmp_path)
 
@@ -145,7 +147,7 @@ BAD = {
     "[[variant]]\nname = '../up'": "variant name '../up' cannot be a folder's; give letters",
     "[[variant]]\nname = 'with-ignore'": "variant name 'with-ignore' is taken",
     "[[variant]]\nname = 'a'\n[[variant]]\nname = 'b'": "variant 'b' is the same as 'a'; leave one out",
-    "[[variant]]\nname = 'a'\n[[variant]]\nname = 'a'\nreadings = {object_radius = 8}": "are called 'a'",
+    "[[variant]]\nname = 'a'\n[[variant]]\nname = 'a'\nreadings = {object_radius = 3}": "are called 'a'",
     "[variant]\nname = 'a'": "variant must be tables, each headed [[variant]]",
     "conditions = 'with-music'": "with-music",
     "conditions = []": "conditions = [] must be a list of with-indicate and with-ignore, or one of them",
@@ -157,7 +159,7 @@ BAD = {
     "seeds = true": "seeds = True is not understood",
     "seeds = [1, '1-2']": "seeds has 1 twice; leave one out",
     "seeds = '1-1000000000000'": "are too many; an experiment has at most 10,000",
-    "preset = 'mine'": "unknown preset of readings 'mine'; there are default, printed",
+    "preset = 'mine'": f"unknown preset of readings 'mine'; there are {', '.join(PRESETS)}",
     "jobs = 'two'": "jobs = 'two' must be a whole number",
     "jobs = 0": "asked for 0 processes at a time; there must be at least 1",
     "post_evaluate = 1": "post_evaluate = 1 must be true or false",

@@ -8,22 +8,24 @@ import numpy as np
 import pytest
 
 from arm2d import Condition, LabelChanges, Readings, Trials, draw_trials, record_trial
+from arm2d.readings import PLAIN
 from evolution.player.bundle import bundle
 from tests.arm2d.kernel.test_kernel import ALTERNATIVES, changes_of, genotypes_of
 from tests.evolution.player.node import NODE
 
 TRIALS = 2000
-PER_ALTERNATIVE = -(-TRIALS // len(ALTERNATIVES))
+WORLDS = [*map(PLAIN.with_values, ALTERNATIVES), Readings()]
+PER_WORLD = -(-TRIALS // len(WORLDS))
 
 
-def draw(alternative, evolved):
-    """(genotype, trial, readings) of one alternative; in every third trial the words change."""
-    readings = Readings().with_values(alternative)
-    rng = np.random.default_rng([15, ALTERNATIVES.index(alternative)])
-    genotypes = genotypes_of(evolved, PER_ALTERNATIVE, rng)
+def draw(place, evolved):
+    """(genotype, trial, readings) of one of the worlds; in every third trial the words change."""
+    readings = WORLDS[place]
+    rng = np.random.default_rng([15, place])
+    genotypes = genotypes_of(evolved, PER_WORLD, rng)
     rng.shuffle(genotypes)
     for condition in Condition:
-        n = PER_ALTERNATIVE // 2 + (condition is Condition.WITH_INDICATE) * (PER_ALTERNATIVE % 2)
+        n = PER_WORLD // 2 + (condition is Condition.WITH_INDICATE) * (PER_WORLD % 2)
         drawn = draw_trials(condition.instructions, 3, readings, rng)[rng.permutation(54)[:n]]
         changes = LabelChanges(
             rng.permutation(drawn.actions),
@@ -91,8 +93,11 @@ def assert_same_bits(record, rows):
 
 
 @pytest.mark.slow
-def test_page_and_kernel_give_the_same_bits_in_two_thousand_trials_of_all_readings(evolved, tmp_path):
-    drawn = [each for alternative in ALTERNATIVES for each in draw(alternative, evolved)]
+def test_page_and_kernel_give_the_same_bits_in_two_thousand_trials_of_all_readings(
+    evolved, evolved_plain, tmp_path
+):
+    able = [evolved if world == Readings() else evolved_plain for world in WORLDS]
+    drawn = [each for place, genotypes in enumerate(able) for each in draw(place, genotypes)]
     assert len(drawn) >= TRIALS
     steps, outcomes = replay([job(*each) for each in drawn], tmp_path)
     first = 0

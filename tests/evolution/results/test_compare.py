@@ -2,7 +2,6 @@
 
 import csv
 import shutil
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,7 +20,7 @@ from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
 SETTINGS = Settings(population=10, elites=2, parents=5, generations=6)
-LARGER = Readings(object_radius=8.0)
+LARGER = Readings(object_radius=10.0)
 
 
 @pytest.fixture(scope="module")
@@ -76,12 +75,12 @@ def test_command_writes_a_table_and_a_figure(experiments, tmp_path, capsys):
     assert plateau[0]["published"] == "2.57"
     assert float(plateau[0]["larger"]) > 0
     assert plateau[1]["larger"] == ""  # it has no With-Ignore run
-    assert "larger: object radius 8.0" in capsys.readouterr().out
+    assert "larger: object radius 10.0" in capsys.readouterr().out
 
 
 def test_readings_are_told_where_they_differ():
     assert departures(Readings()) == "default readings"
-    assert departures(replace(Readings(), object_radius=8.0)) == "object radius 8.0"
+    assert departures(LARGER) == "object radius 10.0"
 
 
 def test_bad_input_gets_one_sentence(experiments, tmp_path, capsys):

@@ -75,8 +75,9 @@ def test_a_line_goes_from_parent_to_child_and_ends_where_one_is_no_member():
 
 def test_an_elite_that_is_always_a_member_is_a_line_of_its_stay(run, late):
     indices = np.stack([rank(fitness, run.config.readings)[:5] for fitness in late.fitness])
-    same = (late.best_genotypes[1:, 0] == late.best_genotypes[:-1, 0]).all(axis=1)
-    start = int(np.flatnonzero(same)[0])
+    # The best is the first elite again: the copy of the best before, not a child without a mutation.
+    start = int(np.flatnonzero(indices[1:, 0] == 0)[0])
+    assert np.array_equal(late.best_genotypes[start + 1, 0], late.best_genotypes[start, 0])
     members = members_at(late, (start, 0), (start + 1, 0))
     assert longest_line(indices, late.parents, members) == 2
 

@@ -8,11 +8,13 @@ They change only when the world or the algorithm is meant to change; then remake
 import hashlib
 import json
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from arm2d import Condition, Readings, draw_trials, run_trials
+from arm2d import Condition, draw_trials, run_trials
+from arm2d.readings import PLAIN
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.run import evolve
@@ -52,12 +54,12 @@ TOGETHER = {"sector_centres": {"sector_half_width": 3.0}}
 # Small, so that thirty of them take a few seconds.
 SHORT = Settings(population=30, elites=2, parents=10, generations=12)
 BASE = {
-    "with-indicate": RunConfig(Condition.WITH_INDICATE, 1, Settings(generations=40)),
-    "with-ignore": RunConfig(Condition.WITH_IGNORE, 1, Settings(generations=40)),
+    "with-indicate": RunConfig(Condition.WITH_INDICATE, 1, Settings(generations=40), PLAIN),
+    "with-ignore": RunConfig(Condition.WITH_IGNORE, 1, Settings(generations=40), PLAIN),
     "cubed, own starts": RunConfig(
         seed=2,
         settings=Settings(population=20, parents=10, generations=40),
-        readings=Readings(parent_scaling="cubed", starts_shared="genotype", mutation_probability=0.04),
+        readings=replace(PLAIN, parent_scaling="cubed", starts_shared="genotype", mutation_probability=0.04),
     ),
 }
 
@@ -66,12 +68,12 @@ def _alternatives():
     """A short run of each alternative, under the condition it makes a difference to."""
     for name, values in ALTERNATIVES.items():
         for value in values:
-            readings = Readings().with_values({name: value, **TOGETHER.get(name, {})})
+            readings = PLAIN.with_values({name: value, **TOGETHER.get(name, {})})
             condition = Condition.WITH_IGNORE if name == "ignore_stops" else Condition.WITH_INDICATE
             yield f"{name} {value}", RunConfig(condition, 3, SHORT, readings)
 
 
-RUNS = {**BASE, "default": RunConfig(Condition.WITH_INDICATE, 3, SHORT), **dict(_alternatives())}
+RUNS = {**BASE, "plain": RunConfig(Condition.WITH_INDICATE, 3, SHORT, PLAIN), **dict(_alternatives())}
 
 
 def fingerprint(config):

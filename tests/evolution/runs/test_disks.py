@@ -35,7 +35,7 @@ def may_mount(tmp_path_factory):
 def test_a_run_that_filled_its_disk_goes_on_when_there_is_room(finished_run, tmp_path):
     (tmp_path / "run").mkdir()
     script = """
-mount("-t", "tmpfs", "-o", "size=100k", "tmpfs")
+mount("-t", "tmpfs", "-o", "size=60k", "tmpfs")
 evolve()
 mount("-o", "remount,size=64m")
 print(subprocess.run(["find", path, "-name", ".*.tmp"], capture_output=True, text=True).stdout, end="")

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from arm2d import Readings
 from arm2d.constants import N_GENES
-from arm2d.readings import choices
+from arm2d.readings import PLAIN, choices
 from evolution.search.algorithm import (
     Crossings,
     breed,
@@ -21,7 +21,7 @@ from evolution.search.algorithm import (
 from evolution.search.settings import Settings
 
 SETTINGS = Settings()
-READINGS = Readings()
+READINGS = PLAIN
 
 
 def rng(seed=0):
@@ -88,7 +88,7 @@ def shares_of_children(fitness, n_candidates, **readings):
     settings = Settings(population=10_000, elites=0, parents=n_candidates)
     everybody = np.zeros(10_000)
     everybody[: len(fitness)] = fitness
-    parents = choose_parents(everybody, settings, Readings(**readings), rng())
+    parents = choose_parents(everybody, settings, replace(READINGS, **readings), rng())
     return np.bincount(parents, minlength=len(fitness))[: len(fitness)] / 10_000
 
 

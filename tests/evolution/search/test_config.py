@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from arm2d import Condition, Readings
+from arm2d.readings import PLAIN
 from evolution.search.config import FORMAT, RunConfig
 from evolution.search.settings import Settings
 
@@ -27,9 +28,9 @@ def test_defaults_are_the_papers():
     assert (settings.generations, settings.trials_per_area) == (6000, 2)
 
 
-def test_a_missing_setting_or_reading_has_its_default():
+def test_a_missing_setting_has_its_default_and_a_missing_reading_is_the_plain_one():
     text = f'format = {FORMAT}\ncondition = "with-ignore"\nseed = 3\n'
-    assert RunConfig.from_toml(text) == RunConfig(Condition.WITH_IGNORE, 3)
+    assert RunConfig.from_toml(text) == RunConfig(Condition.WITH_IGNORE, 3, readings=PLAIN)
 
 
 def test_differences_are_named_with_both_values():

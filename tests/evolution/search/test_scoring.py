@@ -13,7 +13,7 @@ from evolution.search.scoring import draw_evolution_trials, score_population
 from evolution.search.settings import LARGEST_FITNESS, LARGEST_TRIAL_FITNESS, Settings
 
 CONFIG = RunConfig(seed=5, settings=Settings(population=10, parents=5))
-SHARED, OWN = CONFIG, replace(CONFIG, readings=Readings(starts_shared="genotype"))
+SHARED, OWN = (replace(CONFIG, readings=Readings(starts_shared=each)) for each in ("generation", "genotype"))
 
 
 @pytest.mark.parametrize("condition", Condition)

@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from arm2d import Condition, Readings
+from arm2d import Condition
+from arm2d.readings import PLAIN
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.cli import main
-from evolution.experiments.variants import variant_name
+from evolution.experiments.variants import value_name
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
 from evolution.runs.run import evolve
@@ -32,9 +33,9 @@ SETTINGS = Settings(population=12, elites=2, parents=6, generations=40)
 
 @pytest.fixture(scope="module")
 def measured(tmp_path_factory):
-    """Four short runs of two worlds, named and measured."""
+    """Four short runs of two worlds, named as in the study's tables (plain was the default) and measured."""
     path, named = tmp_path_factory.mktemp("study"), []
-    for name, readings in (("default", Readings()), ("object-radius-8", Readings(object_radius=8.0))):
+    for name, readings in (("default", PLAIN), ("object-radius-8", replace(PLAIN, object_radius=8.0))):
         for seed in (2, 1):
             folder = path / name / f"seed-{seed:04d}"
             evolve(folder, RunConfig(Condition.WITH_INDICATE, seed, SETTINGS, readings))
@@ -46,22 +47,29 @@ def test_screening_stays_as_it_was_run():
     """New readings go into the factorial study: these rows are history."""
     with (RESULTS / "screening-variants.csv").open(encoding="utf-8") as file:
         run = [row["variant"] for row in csv.DictReader(file)]
-    assert [variant_name(world) for world in screening().worlds] == run
+    assert [departures(world) for world in screening().worlds] == run
 
 
-PARTS = [screening(), finalists([Readings(object_radius=8.0), Readings()]), around()]
+def departures(world):
+    """The name of a world at the time of the screening: what differs from the plain readings."""
+    plain = PLAIN.to_mapping()
+    special = [value_name(name, value) for name, value in world.to_mapping().items() if value != plain[name]]
+    return "+".join(special) or "default"
+
+
+PARTS = [screening(), finalists([replace(PLAIN, object_radius=8.0), PLAIN]), around()]
 
 
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: part.name)
-def test_variants_are_distinct_worlds_the_default_among_them(part):
+def test_variants_are_distinct_worlds_the_plain_one_among_them(part):
     configs = part.configs()
     assert len(set(configs)) == len(configs) == part.seeds * len(part.conditions) * len(part.worlds)
-    assert sum(each.readings == Readings() for each in configs) == part.seeds * len(part.conditions)
+    assert sum(each.readings == PLAIN for each in configs) == part.seeds * len(part.conditions)
 
 
 def test_around_changes_the_favourite_by_one_line_of_the_screening_at_a_time():
-    favourite, worlds = Readings(mutation_sd=0.03), around().worlds
-    sizes = [world for world in worlds if replace(world, mutation_sd=0.1) == Readings()]
+    favourite, worlds = replace(PLAIN, mutation_sd=0.03), around().worlds
+    sizes = [world for world in worlds if replace(world, mutation_sd=0.1) == PLAIN]
     assert sorted(world.mutation_sd for world in sizes) == [0.01, 0.02, 0.03, 0.05, 0.07, 0.1]
     screened = {replace(world, mutation_sd=0.03) for world in screening().worlds}
     others = [world for world in worlds if world not in sizes]
@@ -81,7 +89,7 @@ def variant(name, plateau, top_share, *, seeds=(1, 2), generations=3000, **chang
     runs = []
     for seed in seeds:
         config = RunConfig(
-            Condition.WITH_INDICATE, seed, Settings(generations=generations), Readings(**changed)
+            Condition.WITH_INDICATE, seed, Settings(generations=generations), replace(PLAIN, **changed)
         )
         runs.append(RunMeasures(config, plateau, 7, 0.5, successes))
     return VariantMeasures(name, Condition.WITH_INDICATE, generations, tuple(runs))
@@ -330,8 +338,9 @@ def test_what_is_chosen_needs_what_it_is_chosen_from(part, among, tmp_path, caps
 
 
 def test_confirmed_are_the_two_nearest_and_both_together_with_seeds_that_had_no_say():
-    seen, own = Readings(mutation_sd=0.03, object_vision="any_part"), Readings(starts_shared="genotype")
-    part = confirmation([seen, own, Readings()])
+    seen = replace(PLAIN, mutation_sd=0.03, object_vision="any_part")
+    own = replace(PLAIN, starts_shared="genotype")
+    part = confirmation([seen, own, PLAIN])
     assert part.worlds == (seen, own, replace(seen, starts_shared="genotype"))
     assert {each.seed for each in around().configs()}.isdisjoint(each.seed for each in part.configs())
     less = replace(seen, mutation_sd=0.1)

@@ -5,8 +5,9 @@ from dataclasses import replace
 import pytest
 import warp as wp
 
-from arm2d import Condition, Readings
+from arm2d import Condition
 from arm2d.device.errors import DeviceLostError, DeviceMemoryError
+from arm2d.readings import PLAIN
 from evolution.experiments.device.batch import evolve_together
 from evolution.experiments.device.scoring import DeviceScoring
 from evolution.experiments.device.stages import evolve_batch
@@ -16,12 +17,13 @@ from evolution.runs.run import Watcher, evolve
 from tests.evolution.small_runs import SMALL, contents
 
 # Two conditions, four seeds, four worlds, three lengths; in one, every genotype meets trials of its own.
+BASE = replace(SMALL, readings=PLAIN)
 CONFIGS = {
-    "a": SMALL,
-    "b": replace(SMALL, seed=1, condition=Condition.WITH_IGNORE),
-    "c": replace(SMALL, seed=2, readings=Readings(camera_origin="end", crossover=0.3)),
-    "d": replace(SMALL, seed=3, readings=Readings(starts_shared="genotype")),
-    "e": replace(SMALL, readings=Readings(turn="radians", ties="children")),
+    "a": BASE,
+    "b": replace(BASE, seed=1, condition=Condition.WITH_IGNORE),
+    "c": replace(BASE, seed=2, readings=replace(PLAIN, camera_origin="end", crossover=0.3)),
+    "d": replace(BASE, seed=3, readings=replace(PLAIN, starts_shared="genotype")),
+    "e": replace(BASE, readings=replace(PLAIN, turn="radians", ties="children")),
 }
 CONFIGS = {
     name: replace(config, settings=replace(config.settings, generations=length))

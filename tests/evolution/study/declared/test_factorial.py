@@ -10,7 +10,7 @@ import pytest
 
 from arm2d import Condition, Readings
 from arm2d.device.opening import CHECK
-from arm2d.readings import choices
+from arm2d.readings import PLAIN, choices
 from evolution.cli import main
 from evolution.experiments.device.jobs import DeviceShares
 from evolution.runs.folder import RunFolder
@@ -43,9 +43,9 @@ def test_every_alternative_of_the_ledger_is_a_level():
     assert listed | words | defaults <= drawn
 
 
-def test_default_is_the_first_level_of_every_factor():
-    assert world_of([next(iter(each.levels)) for each in FACTORS]) == Readings()
-    assert levels_of(Readings()) == tuple(next(iter(each.levels)) for each in FACTORS)
+def test_plain_readings_are_the_first_level_of_every_factor():
+    assert world_of([next(iter(each.levels)) for each in FACTORS]) == PLAIN
+    assert levels_of(PLAIN) == tuple(next(iter(each.levels)) for each in FACTORS)
 
 
 @pytest.mark.parametrize("first", [40, 150, 300])

@@ -7,7 +7,8 @@ import pytest
 from matplotlib.colors import to_hex
 from scipy.stats import chi2
 
-from arm2d import Condition, Readings
+from arm2d import Condition
+from arm2d.readings import PLAIN
 from evolution.cli import main
 from evolution.figures.paper import TITLES
 from evolution.study.declared.factors import FACTORS
@@ -178,8 +179,8 @@ def test_nearest_worlds_are_those_of_the_known_effects(models, runs):
         name for name, value in first.readings.to_mapping().items() if value != getattr(second.readings, name)
     ]
     assert len(changed) >= 2 or "mutation_sd" in changed
-    # What does nothing stays at its default.
-    assert first.readings.object_radius == Readings().object_radius
+    # What does nothing stays at its first level.
+    assert first.readings.object_radius == PLAIN.object_radius
     assert first.predicted[Condition.WITH_INDICATE][0] == pytest.approx(2.65, abs=0.1)
 
 
@@ -198,14 +199,14 @@ def test_distance_is_0_for_the_published_figures_and_counts_standard_deviations(
     np.testing.assert_allclose(distance(published, spread), [0, np.sqrt(0.5)], atol=1e-12)
 
 
-def test_nothing_that_matters_leaves_the_default():
+def test_nothing_that_matters_leaves_the_plain_readings():
     rng = np.random.default_rng(5)
     made = [made_up(config, rng.normal(2, 0.1), rng.random(4)) for config in CONFIGS]
     models = {
         c: [fit([run for run in made if run.config.condition is c], figure) for figure in FIGURES]
         for c in Condition
     }
-    assert [world.readings for world in nearest_worlds(models, spreads(made))] == [Readings()]
+    assert [world.readings for world in nearest_worlds(models, spreads(made))] == [PLAIN]
 
 
 def test_figure_has_a_row_for_every_level_and_the_published_values(models):
