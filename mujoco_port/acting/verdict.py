@@ -3,7 +3,8 @@
 Judged is what happened to the objects, moment by moment of the physics. S1 exists on the robot as a direction
 only: the one that was ordered.
 
-    INDICATE   10 s on end: the target's bearing within 4.6 degrees of S1, and nothing touches the target
+    INDICATE   10 s on end: the target's bearing within 4.6 degrees of S1 (30 if the reading `indicate_angle`
+               is wide), and nothing touches the target
     TOUCH      10 s on end: on target, the hand's little-finger side on the target, S1 at rest
     MOVE       on target and the hand's little-finger side on the target, from a touch on, until the target's
                bearing has changed by 34.4 degrees; it stands upright all the while

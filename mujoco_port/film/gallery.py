@@ -14,7 +14,7 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 from rich.progress import track
 
-from arm2d import NON_EXPERIENCED, Instruction
+from arm2d import NON_EXPERIENCED, Instruction, Readings
 from arm2d.constants import DT
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS, look
 from arm2d.films import write_mp4, write_png
@@ -81,7 +81,7 @@ def frames(
     """All moments, [1080, 1920, 3] each, until the longest trial has ended and `HOLD_S` longer."""
     picture = _empty(robot, title)
     # So small a picture needs smooth edges.
-    with Stage(robot, CELL_WIDTH, VIEW_HEIGHT, replace(quality, oversampling=2)) as stage:
+    with Stage(robot, CELL_WIDTH, VIEW_HEIGHT, replace(quality, oversampling=2), _world(takes)) as stage:
         cells = [cell_pictures(take, stage, rate) for take, rate in _rated(takes, rates)]
         for _ in range(max(len(take.steps) for take in takes)):
             for k, cell in enumerate(cells):
@@ -97,7 +97,7 @@ def last_moments(
 ) -> NDArray[np.uint8]:
     """How all trials ended, [1080, 1920, 3], in high quality."""
     picture = _empty(robot, title)
-    with Stage(robot, CELL_WIDTH, VIEW_HEIGHT, QUALITIES["high"]) as stage:
+    with Stage(robot, CELL_WIDTH, VIEW_HEIGHT, QUALITIES["high"], _world(takes)) as stage:
         for k, (take, rate) in enumerate(_rated(takes, rates)):
             last = len(take.steps) - 1
             picture[_place(k)] = cell(take, last, moment_of(take, stage, last, INSET), rate)
@@ -120,6 +120,11 @@ def cell(take: Take, moment: int, view: NDArray[np.uint8], rate: float | None = 
     if take.record.instruction in NON_EXPERIENCED:
         _frame(picture)
     return picture
+
+
+def _world(takes: Sequence[Take]) -> Readings:
+    """Of which all trials of a gallery are."""
+    return takes[0].record.readings
 
 
 def _rated(takes: Sequence[Take], rates: NDArray[np.float64] | None) -> list[tuple[Take, float | None]]:

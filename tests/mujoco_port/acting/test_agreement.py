@@ -125,7 +125,7 @@ def asked_of_the_lab(monkeypatch):
 
 
 def test_each_loop_is_what_it_is_called_and_a_camera_is_opened_once(asked_of_the_lab, evolved_agent):
-    candidate = Candidate("evolved", evolved_agent, (Instruction.parse("move red"),), Readings())
+    candidate = Candidate("evolved", evolved_agent, (Instruction.parse("move blue"),), Readings())
     done = []
     for loop in ("open", "delayed", "geometric", "camera", "camera"):
         done.append(carry_out_job(jobs([candidate], (loop,), 1, seed=4)[0]))

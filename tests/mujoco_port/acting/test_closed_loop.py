@@ -7,6 +7,7 @@ import pytest
 
 from arm2d import Instruction, Networks, Readings, Trials, draw_trials, encode, record_trial
 from arm2d.geometry import camera_offsets
+from arm2d.readings import PLAIN
 from arm2d.reference import sense
 from evolution.runs.sources import find_agent
 from mujoco_port.acting.camera import CameraEyes
@@ -79,8 +80,9 @@ def test_geometric_eyes_see_objects_where_the_2d_world_has_them(standing):
 
 
 def test_camera_sees_the_same_bearings_as_geometry_and_nothing_outside_its_field(standing):
+    """A camera in J1."""
     body, discs = standing
-    with CameraEyes(body) as eyes:
+    with CameraEyes(body, PLAIN) as eyes:
         for target, disc in enumerate(discs):
             true = bearing(disc)
             for offset in (-14.0, -5.0, 0.0, 9.0, 14.0):
@@ -94,7 +96,7 @@ def test_camera_sees_the_same_bearings_as_geometry_and_nothing_outside_its_field
 def test_camera_at_the_end_of_s1_sees_bearings_from_there_and_the_robot_still_looks_from_j1(standing):
     body, discs = standing
     end = Readings(camera_origin="end")
-    with CameraEyes(body, end) as eyes, CameraEyes(body) as others:
+    with CameraEyes(body, end) as eyes, CameraEyes(body, PLAIN) as others:
         for target, disc in enumerate(discs):
             for offset in (-9.0, -3.0, 0.0, 1.0, 5.0):
                 alpha = bearing(disc) + offset
@@ -141,12 +143,12 @@ def test_agents_order_takes_effect_one_control_step_after_what_it_answers_to(lab
 
 
 def test_shipped_generaliser_moves_red_in_the_robots_body_with_either_kind_of_eyes(lab):
-    champion = find_agent("best-generaliser").genotype
-    record = _trial("move red", champion)
+    champion = find_agent("best-generaliser")
+    record = _trial("move red", champion.genotype, champion.readings)
     assert record.success
-    with CameraEyes(lab.body) as eyes:
+    with CameraEyes(lab.body, champion.readings) as eyes:
         for sight in (None, eyes):
-            physical, verdict = lab.closed_loop(champion, start_of(record), READINGS, sight)
+            physical, verdict = lab.closed_loop(champion.genotype, start_of(record), champion.readings, sight)
             assert verdict.success
             assert abs(physical.steps - record.steps) < 10
 
@@ -181,6 +183,6 @@ def turns_by(sensors):
     return encode(networks, READINGS)[0]
 
 
-def _trial(words, genotype):
-    trials = draw_trials([Instruction.parse(words)], 1, READINGS, np.random.default_rng(2))
-    return record_trial(genotype, trials[0], READINGS)
+def _trial(words, genotype, readings=READINGS):
+    trials = draw_trials([Instruction.parse(words)], 1, readings, np.random.default_rng(2))
+    return record_trial(genotype, trials[0], readings)

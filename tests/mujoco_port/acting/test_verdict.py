@@ -1,17 +1,20 @@
 """Verdicts in 3D, on trials made by hand: what counts, what breaks a run, what fails a trial."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from arm2d import Instruction, Readings
+from arm2d import Instruction
+from arm2d.readings import PLAIN
 from mujoco_port.acting.contacts import ARM, LEFT_SIDE, OBJECT, RIGHT_SIDE
 from mujoco_port.acting.rollout import PhysicalRecord
 from mujoco_port.acting.verdict import bearings, closed, judge
 
 BLUE, GREEN, RED = 0, 1, 2
 TEN_SECONDS = 5000  # physics steps
-READINGS = Readings()
+READINGS = PLAIN  # a camera in J1, and 4.6 degrees for INDICATE
 
 
 def trial(words, n=6000, step_s=0.002, **changes):
@@ -132,7 +135,7 @@ def test_ignore_is_ten_seconds_with_the_target_neither_in_view_nor_touched():
 
 def test_ignore_takes_in_view_as_the_camera_at_the_end_of_s1_does():
     """Objects stand 150 cm from J1: one 8 degrees off S1 is 23 degrees off as seen from its end, 4 are 12."""
-    end = Readings(camera_origin="end")
+    end = replace(READINGS, camera_origin="end")
     for off, from_j1, from_end in ((16.0, True, True), (8.0, False, True), (4.0, False, False)):
         record = trial("ignore green", alpha=np.full(6000, 90.0 - off))
         assert judge(record, READINGS).success == from_j1
@@ -162,6 +165,17 @@ def test_target_is_met_just_inside_its_cone_on_either_side_and_not_outside(side)
         assert judge(trial("indicate green", alpha=alpha), READINGS).success == met
         touch = trial("touch green", alpha=alpha, contact=touching(GREEN, RIGHT_SIDE))
         assert judge(touch, READINGS).success == met
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_the_wide_cone_is_indicates_only(side):
+    """30 degrees; TOUCH keeps its 4.6."""
+    wide = replace(READINGS, indicate_angle="wide")
+    for off, met in ((4.7, True), (29.9, True), (30.1, False)):
+        alpha = np.full(6000, 90.0 + side * off)
+        assert judge(trial("indicate green", alpha=alpha), wide).success == met
+        touch = trial("touch green", alpha=alpha, contact=touching(GREEN, RIGHT_SIDE))
+        assert not judge(touch, wide).success
 
 
 def test_bearings_run_from_minus_90_over_the_left_bound_without_a_jump():

@@ -67,15 +67,17 @@ def broken_egl(tmp_path):
 @pytest.fixture
 def thin_python(tmp_path):
     """An interpreter that sees all installed packages but those given by how their names begin."""
-    ours = next(Path(each) for each in sys.path if each.endswith("site-packages"))
+    ours = [Path(each) for each in dict.fromkeys(sys.path) if each.endswith("site-packages")]
 
     def make(*left_out):
         home = tmp_path / "thin"
         venv.create(home, with_pip=False, symlinks=True)
         theirs = next(home.glob("lib/python*/site-packages"))
-        for entry in ours.iterdir():
-            if not entry.name.lower().startswith(left_out):
-                (theirs / entry.name).symlink_to(entry)
+        for entry in (each for folder in ours for each in folder.iterdir()):
+            link = theirs / entry.name
+            # What a .pth file leads to is linked itself, or left out.
+            if not entry.name.lower().startswith(left_out) and entry.suffix != ".pth" and not link.exists():
+                link.symlink_to(entry)
         return str(home / "bin" / "python")
 
     return make

@@ -29,7 +29,9 @@ def test_motors_shown_turn_the_joints_as_the_record_has_it(records, evolved_agen
             turn = np.where(go > 0.5, np.sign(0.5 - way), 0.0)
             moved = np.sign(record.turns[:, joint])
             free = moved != 0.0
-            assert (turn[free] == moved[free]).mean() > 0.99
+            # In some trials S2 never turns.
+            assert (turn[free] != moved[free]).sum() < 0.01 * max(free.sum(), 1)
+    assert all(any(record.turns[:, joint].any() for record in records) for joint in range(2))
 
 
 def test_states_shown_are_those_of_the_kernel(records, evolved_agent):

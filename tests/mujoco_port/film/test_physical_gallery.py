@@ -5,16 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from arm2d import Instruction, draw_trials, run_trials
+from arm2d import Instruction, Readings, draw_trials, run_trials
 from evolution.agents.recording import record_instruction
 from evolution.commands.port import headline
 from evolution.runs.sources import find_agent
 from evolution.search.randomness import Purpose, generator
+from mujoco_port.film import gallery
 from mujoco_port.film.gallery import CELL_WIDTH, CLOCK, RATE_BAR, STRIP, VIEW_HEIGHT, cell_pictures, strip
 from mujoco_port.film.physical_port import port_physical_gallery, start_of
 from mujoco_port.film.quality import QUALITIES
 from mujoco_port.film.stage import Stage
-from mujoco_port.film.take import physical_take
+from mujoco_port.film.take import kinematic_take, physical_take
 
 
 @pytest.fixture(scope="module")
@@ -59,6 +60,23 @@ def test_a_cell_ends_with_the_verdicts_of_both_worlds(agent, record, stage, lab)
     assert (both < 128).all(axis=-1).sum() > (one < 128).all(axis=-1).sum()
     assert (both != other).any()
     assert (both[:, :2] > 200).all()  # nothing is cut off
+
+
+@pytest.mark.parametrize("draw", [lambda *told: next(gallery.frames(*told)), gallery.last_moments])
+def test_a_gallery_shines_with_the_world_of_its_trials(draw, record, robot, monkeypatch):
+    world = replace(record.readings, start_half_width=6.0, camera_origin="end")
+    assert world != Readings()
+    take = kinematic_take(replace(record, readings=world), robot, 0.1)
+    built = []
+
+    class Draft(Stage):
+        def __init__(self, *told):
+            built.append(told[4])
+            super().__init__(*told[:3], QUALITIES["draft"], *told[4:])
+
+    monkeypatch.setattr(gallery, "Stage", Draft)
+    draw([take], robot, "one")
+    assert built == [world]
 
 
 @pytest.mark.parametrize("rate", [0.0, 0.4625, 1.0])
