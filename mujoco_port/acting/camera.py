@@ -57,8 +57,8 @@ class CameraEyes:
         readings: Where the agent's camera sits.
     """
 
-    def __init__(self, body: Body, readings: Readings | None = None) -> None:
-        self._body, self._readings = body, readings or Readings()
+    def __init__(self, body: Body, readings: Readings) -> None:
+        self._body, self._readings = body, readings
         self._renderer = mujoco.Renderer(body.model, HEIGHT_PX, WIDTH_PX)
         _open.add(self)
         _close_at_exit()

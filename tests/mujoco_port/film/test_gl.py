@@ -126,10 +126,11 @@ def test_a_pool_forked_after_something_was_drawn_is_refused_and_a_spawned_one_dr
 def test_eyes_that_nobody_closes_are_closed_when_python_ends():
     code = (
         "from mujoco_port.film.gl import choose_back_end; choose_back_end()\n"
+        "from arm2d import Readings\n"
         "from models.robots import get_robot\n"
         "from mujoco_port.acting.camera import CameraEyes\n"
         "from mujoco_port.acting.control import Body\n"
-        "eyes = CameraEyes(Body(get_robot('icub')))\n"
+        "eyes = CameraEyes(Body(get_robot('icub')), Readings())\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
