@@ -57,9 +57,9 @@ def variant_name(readings: Readings, settings: Settings | None = None, common: S
     Returns:
         Field names with dashes and their values, joined by `+`; `default` if nothing is special.
     """
-    parts = min(departures(readings, Readings()), [PLAIN_NAME, *departures(readings, PLAIN)], key=len)
+    parts = min(value_names(readings, Readings()), [PLAIN_NAME, *value_names(readings, PLAIN)], key=len)
     if settings is not None:
-        parts += departures(settings, common or Settings())
+        parts += value_names(settings, common or Settings())
     return "+".join(parts) or DEFAULT_NAME
 
 
@@ -128,7 +128,7 @@ def _same(short: dict[str, str]) -> list[list[str]]:
     return [[name for name in short if short[name] == each] for each, n in times.items() if n > 1]
 
 
-def departures(record: Any, base: Any) -> list[str]:
+def value_names(record: Any, base: Any) -> list[str]:
     """Name and value, fit for a folder, of every field in which a record differs from another."""
     values = [(each.name, getattr(record, each.name)) for each in fields(base)]
     return [value_name(name, value) for name, value in values if value != getattr(base, name)]

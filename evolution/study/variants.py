@@ -11,7 +11,7 @@ from typing import Any, Final
 
 from arm2d import Condition, Readings
 from arm2d.readings import PLAIN
-from evolution.experiments.variants import DEFAULT_NAME, Variant, departures
+from evolution.experiments.variants import DEFAULT_NAME, Variant, value_names
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
@@ -96,7 +96,7 @@ class Part:
         """Of the variants, as they were when these parts were run and the plain readings were the default."""
         settings = Settings(generations=self.generations)
         return {
-            Variant(world, settings): "+".join(departures(world, PLAIN)) or DEFAULT_NAME
+            Variant(world, settings): "+".join(value_names(world, PLAIN)) or DEFAULT_NAME
             for world in self.worlds
         }
 
