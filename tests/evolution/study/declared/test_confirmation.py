@@ -9,6 +9,7 @@ import pytest
 
 from arm2d import Condition, Readings
 from evolution.cli import main
+from evolution.commands.study import DECLARED_PARTS
 from evolution.study.declared.confirmation.decision import WINNER, decision, judged
 from evolution.study.declared.confirmation.verdict import decide, duel_table, less_one_table, world_table
 from evolution.study.declared.confirmation.worlds import (
@@ -28,6 +29,7 @@ from evolution.study.declared.nearest import spreads
 from evolution.study.declared.parts import factorial
 from evolution.study.declared.results import chosen_worlds, regressions
 from evolution.study.declared.rows import write_rows
+from evolution.study.declared.study import PARTS
 from tests.evolution.study.declared.synthetic import made_up, runs_with_effects
 
 CHOSEN = [Readings(parent_scaling="rank"), Readings(crossover=0.3, mutation_sd=0.03)]
@@ -226,6 +228,11 @@ def test_a_little_less_than_the_margin_is_no_worse(figure, lower, holds, spread)
     changed[WINNER, IGNORE] = changed[PRINTED, IGNORE] - lower
     _, found = judged(made_decision(plateaus, tops, noise=0.001), WORLD_B, spread)
     assert found.no_worse == holds
+
+
+def test_command_takes_every_declared_part_for_one():
+    """It names them itself: the study is loaded late."""
+    assert DECLARED_PARTS == PARTS
 
 
 def test_less_one_takes_back_one_departure_at_a_time():
