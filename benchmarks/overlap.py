@@ -20,6 +20,7 @@ from evolution.runs.sources import Agent, find_agent
 from models.robots import get_robot
 from mujoco_port.acting.gaps import Gaps
 from mujoco_port.film.kinematic import roll_out
+from mujoco_port.reach.workspace import for_world
 
 AGENTS: Final = ("best-generaliser", "best-specialist", "with-ignore")
 PER_AREA: Final = 3
@@ -42,8 +43,9 @@ class Tally:
     missing: int = 0
 
 
-def tally(agent: Agent, gaps: Gaps) -> Tally:
-    """Go through an agent's trials of all nine instructions."""
+def tally(agent: Agent) -> Tally:
+    """Go through an agent's trials of all nine instructions, at the table of its world."""
+    gaps = Gaps(for_world(get_robot("icub"), agent.readings))
     trials = draw_trials(agent.condition.instructions, PER_AREA, agent.readings, np.random.default_rng(SEED))
     total = Tally()
     for t in range(len(trials)):
@@ -72,15 +74,15 @@ def add(total: Tally, record: TrialRecord, gaps: Gaps) -> None:
 
 def main(agents: tuple[str, ...]) -> None:
     """Print a table, one row for each agent."""
-    gaps = Gaps(get_robot("icub"))
     table = Table(title="gaps between hand and objects in mm; trials are those that succeed in 2D")
     for name in ("agent", "trials", "overlapping", "missing", "deepest", "touched p1, 50, 99", "arm least"):
         table.add_column(name, justify="left" if name == "agent" else "right")
-    for agent in agents:
-        total = tally(find_agent(agent, generation=None, rank=0, condition=None), gaps)
+    for each in agents:
+        agent = find_agent(each, generation=None, rank=0, condition=None)
+        total = tally(agent)
         touched = np.percentile(total.touched, [1, 50, 99]) * 1e3 if total.touched else [np.nan] * 3
         table.add_row(
-            agent,
+            agent.name,
             str(total.successes),
             str(total.overlapping),
             str(total.missing),

@@ -18,6 +18,7 @@ from models.urdf import find_urdf, share_folder
 
 ROBOT_PREFIX = "robot/"  # of every name that comes from the URDF, so that none meets one of the scene
 HAND_SITE = "robot/hand"  # the point that plays S2's end
+OBJECTS = ("blue", "green", "red")
 VISUAL_GROUP = 1
 SHELL_INERTIA = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # shown meshes need not be closed
 UNCOLOURED = [0.5, 0.5, 0.5, 1.0]  # the one colour that lets a material's own through
@@ -36,7 +37,7 @@ SHAPES = {
 
 
 def build_spec(robot: Robot, finer: float = 1.0) -> mujoco.MjSpec:
-    """Put a robot at the table of `scene.xml`.
+    """Put a robot at the table of `scene.xml`, with objects as wide as its record says.
 
     Joints that do not act are fixed at their angle in `robot.fixed`; the hand's reference point becomes
     the site "robot/hand". The robot's meshes are only looked at: they take part in no contact.
@@ -49,6 +50,8 @@ def build_spec(robot: Robot, finer: float = 1.0) -> mujoco.MjSpec:
         RobotNotInstalledError: If the robot's package is missing.
     """
     scene = mujoco.MjSpec.from_string(files("models").joinpath("scene.xml").read_text())
+    for name in OBJECTS:
+        scene.geom(name).size[0] = robot.plane.object_radius
     body = robot_spec(robot, finer)
     yaw = robot.base_yaw / 2
     frame = scene.worldbody.add_frame(

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import mujoco
 import numpy as np
 
-from models.build import ROBOT_PREFIX, build_spec
+from models.build import OBJECTS, ROBOT_PREFIX, build_spec
 from models.head import add_eyes, cut_out_eyes, loosened
 from models.inertias import unsound_inertias
 from models.limits import MotorLimits
@@ -17,7 +17,6 @@ from models.shapes import ContactShape
 SHAPE_PREFIX = "touching/"  # of the names of the shapes that meet objects
 SHAPE_GROUP = 3  # not drawn
 TABLE_TOPS = ("top", "right_wing", "left_wing")
-OBJECTS = ("blue", "green", "red")
 EYE = "eye"  # a camera in J1
 # Which shapes meet: objects (1) with everything, the robot's shapes (2) with objects only.
 OBJECT_BIT, ROBOT_BIT = 1, 2
@@ -27,8 +26,8 @@ OBJECT_BIT, ROBOT_BIT = 1, 2
 HAND_FRICTION = 1.3
 TABLE_FRICTION = 0.5
 # [m], resistance to rolling: the force of a soft skin acts somewhere in the patch that it makes with a
-# cylinder, whose half-width is sqrt(2 radius depth), 8 mm where a cylinder of 17 mm is pressed in by 1.9 mm.
-# Without it cylinders roll off a hand that is not quite square to its way.
+# cylinder, whose half-width is sqrt(2 radius depth), 8 mm where a cylinder of 17 mm is pressed in by 1.9 mm,
+# or one of 22 mm by 1.5 mm. Without it cylinders roll off a hand that is not quite square to its way.
 ROLLING_RESISTANCE = 0.008
 # A motor pulls like a spring of this natural frequency on the inertia that the joint moves at rest,
 # critically damped: stiff enough to hold the hand, soft enough for steps of 2 ms.

@@ -58,7 +58,10 @@ class PlaneMap:
             a pushed object is some degrees ahead of the hand, and is to be pushed along its own arc.
         heading_range: [rad], the hand turns no further than this: beyond, the arm would have to fold behind
             the robot's side.
-        hand_print: Over what the hand does not come down.
+        hand_edge: [m], how far to the left of the reference point the hand's rightmost places are: an object
+            reaches so much further than the disc it plays, and the hand meets it when S2 meets the disc.
+        object_radius: [m], of the three objects: `hand_edge` + `scale` * the disc's radius in [cm].
+        hand_print: Over what the hand does not come down, with objects of this radius.
     """
 
     scale: float
@@ -67,6 +70,8 @@ class PlaneMap:
     lift_range: tuple[float, float]
     heading_lead: float
     heading_range: tuple[float, float]
+    hand_edge: float
+    object_radius: float
     hand_print: HandPrint
 
 
@@ -178,8 +183,7 @@ ICUB = Robot(
     hand_frame="r_hand_dh_frame",
     # Beside the little finger, 20 mm behind its tip: what is pushed may come that much further out before
     # the finger's round end lets it slip. With the roll below, the hand's rightmost places are 8 mm to the
-    # left of the point; when S2 meets the disc of 5 cm, the cylinder's centre is 9 mm to the right of it,
-    # and so 17 mm, its radius, from them. The hand's lowest place is 18 mm below the point.
+    # left of the point (`hand_edge`). The hand's lowest place is 18 mm below it.
     hand_offset=(0.0684, 0.0260, -0.0271),
     base_position=(-0.0763, -0.3161, 0.1252),
     base_yaw=-pi / 2,  # the iCub of the URDF faces -x
@@ -190,6 +194,8 @@ ICUB = Robot(
         lift_range=(24.0, 43.0),
         heading_lead=pi / 30,
         heading_range=(-pi / 6, 17 * pi / 18),
+        hand_edge=0.008,
+        object_radius=0.017,  # plays a disc of 5 cm; the port lays the table for others
         hand_print=HandPrint(
             left_of_edge=(-0.004, 0.008),  # a pushed object is 9 mm to the right
             width=(0.092, 0.066),

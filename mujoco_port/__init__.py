@@ -4,7 +4,7 @@
     mujoco_port.port_trial(record, "touch-green.mp4")                     # the robot follows a trial
     mujoco_port.port_physical_trial(record, genotype, "touch-green.mp4")  # it acts, and is judged
     record = mujoco_port.drive("move red", alpha, beta)                   # a trajectory of your own
-    mujoco_port.Lab("icub").follow(record)                                # every physics step, and a verdict
+    mujoco_port.Lab("icub", record.readings).follow(record)               # every physics step, and a verdict
 
     reach     the plane on the table, inverse kinematics, what can be reached
     acting    motors, contacts, eyes, open and closed loop, the verdict in three dimensions

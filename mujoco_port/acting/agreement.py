@@ -15,7 +15,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
-from typing import Any, Final, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,11 @@ from arm2d.cache import sources_digest
 from arm2d.files import handle_to_append, read_file, write_whole
 from arm2d.records import brief
 from arm2d.trials import START_AREAS
-from models.robots import get_robot
+from models.robots import Robot, get_robot
+
+if TYPE_CHECKING:
+    from mujoco_port.acting.lab import Lab
+    from mujoco_port.acting.rollout import Eyes
 
 Loop = Literal["open", "delayed", "geometric", "camera"]
 Head = Literal["turns", "held"]
@@ -210,35 +214,51 @@ def _outcome(row: Sequence[str]) -> Outcome:
     )
 
 
-_lab = None
-_eyes: dict[str, Any] = {}  # by where the camera sits
+_robot: Robot | None = None
+_labs: dict[float, Lab] = {}  # by the radius of the discs
+_eyes: dict[tuple[float, str], Eyes] = {}  # by that and where the camera sits
 
 
 def _move_in(robot: str, head: Head = "turns") -> None:
-    """Build the robot of this process once."""
-    global _lab
-    from mujoco_port.acting.lab import Lab
-
+    """Choose the robot of this process."""
+    global _robot
     chosen = get_robot(robot)
-    _lab = Lab(chosen if head == "turns" else chosen.with_head_held)
+    _robot = chosen if head == "turns" else chosen.with_head_held
+    _labs.clear()
     _eyes.clear()
+
+
+def lab_for(readings: Readings) -> Lab:
+    """The robot of this process at a table for a world, built once for each size of discs."""
+    if _robot is None:
+        raise RuntimeError("there is no robot in this process")
+    if readings.object_radius not in _labs:
+        from mujoco_port.acting.lab import Lab
+
+        _labs[readings.object_radius] = Lab(_robot, readings)
+    return _labs[readings.object_radius]
+
+
+def camera_for(lab: Lab, readings: Readings) -> Eyes:
+    """The eyes of a lab's robot, opened once for each place of the camera."""
+    key = readings.object_radius, readings.camera_origin
+    if key not in _eyes:
+        from mujoco_port.acting.camera import CameraEyes
+
+        _eyes[key] = CameraEyes(lab.body, readings)
+    return _eyes[key]
 
 
 def carry_out_job(job: Job) -> Outcome:
     """One trial in both worlds, on the robot of this process."""
-    if _lab is None:
-        raise RuntimeError("there is no robot in this process")
     agent, readings = job.agent, job.agent.readings
+    lab = lab_for(readings)
     scores = run_trials(agent.genotype[np.newaxis], job.trial, readings)
-    if job.loop == "camera" and readings.camera_origin not in _eyes:
-        from mujoco_port.acting.camera import CameraEyes
-
-        _eyes[readings.camera_origin] = CameraEyes(_lab.body, readings)
     if job.loop in ("open", "delayed"):
-        record, verdict = _lab.open_loop(agent.genotype, job.trial, readings, int(job.loop == "delayed"))
+        record, verdict = lab.open_loop(agent.genotype, job.trial, readings, int(job.loop == "delayed"))
     else:
-        eyes = _eyes[readings.camera_origin] if job.loop == "camera" else None
-        record, verdict = _lab.closed_loop(agent.genotype, job.trial, readings, eyes)
+        eyes = camera_for(lab, readings) if job.loop == "camera" else None
+        record, verdict = lab.closed_loop(agent.genotype, job.trial, readings, eyes)
     return Outcome(
         agent.name,
         job.loop,

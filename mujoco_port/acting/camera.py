@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from arm2d import Readings
 from arm2d.constants import CHORD_END_DISTANCE, S1_LENGTH
 from arm2d.geometry import camera_position
-from models.build import VISUAL_GROUP
-from models.physics import EYE, OBJECTS
+from models.build import OBJECTS, VISUAL_GROUP
+from models.physics import EYE
 from mujoco_port.acting.control import Body
 from mujoco_port.acting.rollout import Sight
 from mujoco_port.reach.workspace import on_table

@@ -10,7 +10,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from models.physics import OBJECTS, SHAPE_PREFIX
+from models.build import OBJECTS
+from models.physics import SHAPE_PREFIX
 from mujoco_port.acting.control import Body
 
 # How an object is touched, as bits: S2's right side is the hand's little-finger side, its left the thumb's.

@@ -20,8 +20,8 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from arm2d.constants import DT
-from models.build import HAND_SITE, ROBOT_PREFIX
-from models.physics import OBJECTS, build_physics_model
+from models.build import HAND_SITE, OBJECTS, ROBOT_PREFIX
+from models.physics import build_physics_model
 from models.robots import Robot
 from mujoco_port.acting.trajectory import Motion
 from mujoco_port.reach.hand import turning_model

@@ -8,15 +8,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from models.build import ROBOT_PREFIX, build_model
+from models.build import OBJECTS, ROBOT_PREFIX, build_model
 from models.robots import Robot
 
-OBJECTS: Final = ("blue", "green", "red")
 FARTHEST: Final = 0.1  # [m]; more than this is told as this
 
 
 class Gaps:
-    """The gaps between a robot's hand and arm and the objects on its table, in any posture.
+    """The gaps between a robot's hand and arm and the objects on its table (`for_world`), in any posture.
 
     The arm is what the acting joints move between the trunk and the hand: the links on the way from the hand
     to the first link that carries more than one chain.

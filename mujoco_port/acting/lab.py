@@ -1,11 +1,12 @@
 """Trials on an acting robot: the public face of the physics.
 
-record, verdict = mujoco_port.Lab("icub").open_loop(genotype, trial, readings)
+record, verdict = mujoco_port.Lab("icub", readings).open_loop(genotype, trial, readings)
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,9 @@ from mujoco_port.acting.open_loop import OpenLoop, planar_angles
 from mujoco_port.acting.rollout import MOST_STEPS, Eyes, PhysicalRecord, Pilot, carry_out
 from mujoco_port.acting.verdict import Verdict, judge
 from mujoco_port.reach.kinematics import ArmKinematics
+from mujoco_port.reach.workspace import for_world
+
+DEFAULT: Final = Readings()
 
 
 class Lab:
@@ -27,6 +31,8 @@ class Lab:
 
     Args:
         robot: Its record, or its name.
+        readings: A world: the objects on the table are as large as its discs want it. Worlds with discs of
+            another size need a lab of their own.
 
     Attributes:
         body: The robot in MuJoCo.
@@ -36,10 +42,24 @@ class Lab:
         NoPhysicsError: If the robot's record says too little for it to act.
     """
 
-    def __init__(self, robot: Robot | str = "icub") -> None:
-        chosen = get_robot(robot) if isinstance(robot, str) else robot
+    def __init__(self, robot: Robot | str = "icub", readings: Readings = DEFAULT) -> None:
+        chosen = for_world(get_robot(robot) if isinstance(robot, str) else robot, readings)
         self.body = Body(chosen)
         self.kinematics = ArmKinematics(chosen)
+
+    def check_world(self, readings: Readings) -> None:
+        """Refuse a world whose discs the objects on this table do not play.
+
+        Raises:
+            ValueError: If they are made for discs of another size.
+        """
+        plane = self.body.robot.plane
+        if for_world(self.body.robot, readings).plane.object_radius != plane.object_radius:
+            played = (plane.object_radius - plane.hand_edge) / plane.scale
+            raise ValueError(
+                f"the objects on this robot's table play discs of {played:.3g} cm, those of this trial have "
+                f"{readings.object_radius:g} cm; make a lab for its world: Lab(robot, readings)"
+            )
 
     def open_loop(
         self, genotype: NDArray[np.float64], trial: Trials, readings: Readings, delay: int = 0
@@ -53,7 +73,7 @@ class Lab:
             delay: Steps by which the agent is answered late there; 1 as late as in closed loop.
 
         Raises:
-            OutOfReachError: If the robot cannot reach a place.
+            ValueError, OutOfReachError: As `carry_out`.
         """
         instruction, discs = instruction_of(trial), trial.discs[0]
         alpha = float(trial.alpha[0])
@@ -72,7 +92,7 @@ class Lab:
             eyes: What it sees; without, it knows where the objects are.
 
         Raises:
-            OutOfReachError: If the robot cannot reach a place.
+            ValueError, OutOfReachError: As `carry_out`.
         """
         instruction, alpha = instruction_of(trial), float(trial.alpha[0])
         pilot = ClosedLoop(genotype, instruction, alpha, readings, self.body, trial.task)
@@ -83,7 +103,7 @@ class Lab:
         """Let the robot do what S2 does in a recorded trial, to its end, such as one of `mujoco_port.drive`.
 
         Raises:
-            ValueError: If it is longer than a trial on the robot can be.
+            ValueError: If it is longer than a trial on the robot can be, or as `carry_out`.
             OutOfReachError: If the robot cannot reach a place.
         """
         if record.steps > MOST_STEPS:
@@ -104,7 +124,13 @@ class Lab:
         *,
         to_the_end: bool = False,
     ) -> tuple[PhysicalRecord, Verdict]:
-        """Carry out a trial under anybody's orders, until its verdict is certain or the orders end."""
+        """Carry out a trial under anybody's orders, until its verdict is certain or the orders end.
+
+        Raises:
+            ValueError: If the objects on the table do not play the discs of this world.
+            OutOfReachError: If the robot cannot reach a place.
+        """
+        self.check_world(readings)
         record = carry_out(
             self.body,
             self.kinematics,

@@ -14,7 +14,7 @@ from arm2d.records import brief
 from models.robots import Robot
 from mujoco_port.acting.stepping_over import stepping_over
 from mujoco_port.reach.kinematics import ArmKinematics
-from mujoco_port.reach.workspace import hand_headings, hand_targets, on_table, tip_in_plane
+from mujoco_port.reach.workspace import for_world, hand_headings, hand_targets, on_table, tip_in_plane
 
 # Postures between two control steps: the arm of the 2D world is interpolated, and solved for anew.
 FRAMES_PER_STEP: Final = 2.5  # 25 in a second
@@ -49,13 +49,14 @@ def roll_out(record: TrialRecord, robot: Robot, frames_per_step: float = FRAMES_
 
     Args:
         record: K steps.
-        robot: Its record.
+        robot: Its record; its table is laid for the trial's world.
         frames_per_step: Moments for each control step; 1 gives the record's own K + 1 states. The last
             moment is the end of the trial in any case.
 
     Raises:
         OutOfReachError: If the robot cannot reach a place.
     """
+    robot = for_world(robot, record.readings)
     steps = moments(record.steps, frames_per_step)
     alpha, beta = _at(record.alpha, steps), _at(record.beta, steps)
     headings = hand_headings(robot.plane, alpha, beta)

@@ -62,7 +62,7 @@ def port_physical_trial(
     with drawing() if path is not None or closed_loop == "camera" else nullcontext():
         from mujoco_port.acting.lab import Lab
 
-        physical, verdict = _carry_out(Lab(chosen), record, genotype, closed_loop)
+        physical, verdict = _carry_out(Lab(chosen, record.readings), record, genotype, closed_loop)
         if path is not None:
             from mujoco_port.film.take import physical_take
             from mujoco_port.film.video import write_take
@@ -109,7 +109,7 @@ def port_physical_gallery(
         from mujoco_port.film.gallery import write_gallery
         from mujoco_port.film.take import physical_take
 
-        lab, takes, verdicts = Lab(chosen), [], []
+        lab, takes, verdicts = Lab(chosen, records[0].readings), [], []
         for record in track(records, "trials on the robot"):
             physical, verdict = _carry_out(lab, record, genotype, closed_loop)
             takes.append(physical_take(record, physical, verdict, genotype))

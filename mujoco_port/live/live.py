@@ -70,7 +70,9 @@ def show_live(
             trial = draw(area, seed)
             return Start(float(trial.alpha[0]), trial.discs[0])
 
-        lab, posture, door = Lab(chosen), Posture(chosen), door_for(host)
+        lab, door = Lab(chosen, actor.readings), door_for(host)
+        laid = lab.body.robot
+        posture = Posture(laid)
         session = Session(
             lab,
             actor,
@@ -81,8 +83,8 @@ def show_live(
             seed=seed,
         )
         scenes = {
-            "scene-coarse": lambda: scene(posture, chosen, actor.readings),
-            "scene-fine": lambda: scene(Posture(chosen, FINER), chosen, actor.readings),
+            "scene-coarse": lambda: scene(posture, laid, actor.readings),
+            "scene-fine": lambda: scene(Posture(laid, FINER), laid, actor.readings),
         }
         greeting = greeting_of(actor, chosen, closed_loop)
         server = Server(session, posture, page_files(scenes), door, greeting)

@@ -13,8 +13,7 @@ from models.robots import PlaneMap
 # From J1: nearer than S2's end can come nothing is met, further away nothing is reached.
 NEAREST, FARTHEST = 108.0, 165.0  # [cm]
 RIGHTMOST, LEFTMOST = -28.0, 188.0  # [deg]; beyond them the table ends
-WIDTH_M: Final = 0.034  # of an object
-GAP: Final = 1.08  # of their width, from centre to centre
+GAP: Final = 1.08  # of an object's width, from centre to centre
 
 
 class Placing:
@@ -25,7 +24,7 @@ class Placing:
     """
 
     def __init__(self, plane: PlaneMap) -> None:
-        self._apart = GAP * WIDTH_M / plane.scale  # [cm]
+        self._apart = GAP * 2.0 * plane.object_radius / plane.scale  # [cm]
 
     def placed(self, discs: NDArray[np.float64], moved: int, x: float, y: float) -> NDArray[np.float64]:
         """The objects [3, 2] in [cm] after one was put as near to a place as there is room.

@@ -8,9 +8,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from models.build import ROBOT_PREFIX
+from models.build import OBJECTS, ROBOT_PREFIX
 from models.filmed import film_spec, finger_joint
-from models.physics import OBJECTS
 from models.robots import Robot
 from mujoco_port.film.gaze import CURL_S
 from mujoco_port.live.session import FRAMES_PER_SECOND, Moment

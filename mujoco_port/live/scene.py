@@ -23,8 +23,8 @@ from arm2d import Readings
 from arm2d import constants as c
 from arm2d.drawing import CAMERA_RANGE
 from arm2d.records import brief
-from models.build import VISUAL_GROUP
-from models.physics import OBJECTS, TABLE_TOPS
+from models.build import OBJECTS, VISUAL_GROUP
+from models.physics import TABLE_TOPS
 from models.robots import Robot
 from mujoco_port.live.marks import marks
 from mujoco_port.live.posture import Posture

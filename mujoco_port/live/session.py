@@ -71,6 +71,9 @@ class Session:
 
     Attributes:
         version: Grows whenever there is more to tell than where things are.
+
+    Raises:
+        ValueError: If the objects on the table do not play the discs of the actor's world.
     """
 
     def __init__(
@@ -85,6 +88,7 @@ class Session:
         seed: int = 0,
     ) -> None:
         self._lab, self._actor, self._draw, self._eyes = lab, actor, draw_start, eyes
+        lab.check_world(actor.readings)
         self._placing = Placing(lab.body.robot.plane)
         self._instruction = actor.instructions[FIRST]
         self._closed, self._speed, self._area, self._seed = closed, 1.0, area, seed

@@ -8,11 +8,14 @@ stands in it is the business of its record in `models.robots`.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from arm2d.constants import S1_LENGTH, S2_LENGTH
-from models.robots import PlaneMap
+from arm2d.readings import Readings
+from models.robots import PlaneMap, Robot
 
 # A full turn's cut: bearings lie in [-90, 270) degrees, as everywhere in the project, so that the sweep from
 # the right bound over the front to the left bound crosses no jump.
@@ -83,6 +86,26 @@ def hand_headings(plane: PlaneMap, alpha_deg: ArrayLike, beta_deg: ArrayLike) ->
 def on_table(plane: PlaneMap, points_cm: np.ndarray) -> np.ndarray:
     """Give the places on the table, [..., 2] in [m], of points [..., 2] in [cm] of the 2D world."""
     return plane.scale * np.asarray(points_cm, dtype=float)
+
+
+def for_world(robot: Robot, readings: Readings) -> Robot:
+    """Give the same robot at a table whose objects play the discs of this world.
+
+    The hand meets an object when S2 meets its disc if the object's radius is that of the disc and what the
+    hand's edge is to the left of S2. Over wider objects it stays raised from further away on.
+    """
+    plane = robot.plane
+    radius = plane.hand_edge + plane.scale * readings.object_radius
+    wider = radius - plane.object_radius
+    over = plane.hand_print
+    hand_print = replace(
+        over,
+        left_of_edge=(over.left_of_edge[0] - wider, over.left_of_edge[1] - wider),
+        width=(over.width[0] + wider, over.width[1] + wider),
+        length=(over.length[0] + wider, over.length[1] + wider),
+        before_wrist=(over.before_wrist[0] - wider, over.before_wrist[1] - wider),
+    )
+    return replace(robot, plane=replace(plane, object_radius=radius, hand_print=hand_print))
 
 
 def beta_of(plane: PlaneMap, hand: np.ndarray) -> float:

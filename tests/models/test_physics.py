@@ -10,8 +10,8 @@ choose_back_end()
 
 import mujoco  # noqa: E402
 
-from models.build import ROBOT_PREFIX, build_model  # noqa: E402
-from models.physics import EYE, OBJECTS, build_physics_model  # noqa: E402
+from models.build import OBJECTS, ROBOT_PREFIX, build_model  # noqa: E402
+from models.physics import EYE, build_physics_model  # noqa: E402
 
 ROBOT = get_robot("icub")
 # Where arm and head stand while the robot rests.

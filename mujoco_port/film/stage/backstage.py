@@ -13,15 +13,14 @@ from numpy.typing import NDArray
 
 from arm2d import Readings
 from arm2d.drawing import arm_points
-from models.build import HAND_SITE
+from models.build import HAND_SITE, OBJECTS
 from models.filmed import film_spec
 from models.robots import Robot
 from mujoco_port.film.gl import new_context
 from mujoco_port.film.quality import Quality
 from mujoco_port.film.stage.lamps import share_light
-from mujoco_port.reach.workspace import on_table
+from mujoco_port.reach.workspace import for_world, on_table
 
-OBJECTS: Final = ("blue", "green", "red")
 RING: Final = 1.12  # radius of the light around it, of the object's
 BEAM_M: Final = 0.0013  # half the width of the beam from the hand to S2's end
 BEAM_COLOUR: Final = np.array([1.0, 0.95, 0.78, 1.0], np.float32)
@@ -49,6 +48,7 @@ class Backstage:
     def __init__(
         self, robot: Robot, width_px: int, height_px: int, quality: Quality, readings: Readings
     ) -> None:
+        robot = for_world(robot, readings)
         spec = film_spec(robot, quality.finer)
         times = quality.oversampling
         # The whole buffer is cleared for every frame: it should be no larger than the picture.

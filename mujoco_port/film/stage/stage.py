@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Readings
-from models.build import ROBOT_PREFIX
+from models.build import OBJECTS, ROBOT_PREFIX
 from models.robots import Robot
 from mujoco_port.film.gaze import Bearing, bearing
 from mujoco_port.film.quality import QUALITIES, Quality
-from mujoco_port.film.stage.backstage import OBJECTS, Backstage
+from mujoco_port.film.stage.backstage import Backstage
 from mujoco_port.film.stage.cameras import camera_above, camera_named
 from mujoco_port.film.stage.view import View
 from mujoco_port.film.take import Take

@@ -12,10 +12,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from models.build import ROBOT_PREFIX
+from models.build import OBJECTS, ROBOT_PREFIX
 from mujoco_port.film.light import Ground, ground, shine_state
 from mujoco_port.film.overlay import SPOKES, darken_corners, dimmed, distances, halved, lay_over
-from mujoco_port.film.stage.backstage import OBJECTS, Backstage
+from mujoco_port.film.stage.backstage import Backstage
 
 BACKDROP_GROUP: Final = 2  # in `scene.xml`: of what never moves and never hides the robot
 TABLE_SLACK: Final = 0.004  # [m], along the line of sight

@@ -86,8 +86,17 @@ def test_a_head_that_is_held_makes_other_outcomes_of_the_same_trials(listed, com
         list(outcomes(listed, "icub", path, processes=1, head="held"))
     for head, motors in (("turns", 17), ("held", 10)):
         agreement._move_in("icub", head)
-        assert agreement._lab.body.model.nu == motors
-    agreement._lab = None
+        assert agreement.lab_for(Readings()).body.model.nu == motors
+    agreement._move_in("icub")
+
+
+def test_agents_of_worlds_with_other_discs_act_at_tables_of_their_own():
+    agreement._move_in("icub", "held")
+    small, large = (agreement.lab_for(Readings(object_radius=radius)) for radius in (5.0, 8.0))
+    assert agreement.lab_for(Readings(object_radius=8.0, turn="radians")) is large
+    widths = [lab.body.model.geom("red").size[0] for lab in (small, large)]
+    assert widths == pytest.approx([0.017, 0.0224])
+    agreement._move_in("icub")
 
 
 def test_agreement_is_the_part_of_the_2d_successes_that_the_robot_shares():
@@ -104,7 +113,7 @@ def test_agreement_is_the_part_of_the_2d_successes_that_the_robot_shares():
 def asked_of_the_lab(monkeypatch):
     """What is asked of the robot of this process: a word for the loop, the delay, the eyes."""
     agreement._move_in("icub")
-    lab, asked = agreement._lab, []
+    lab, asked = agreement.lab_for(Readings()), []
     open_loop, closed_loop = lab.open_loop, lab.closed_loop
 
     def in_the_plane(genotype, trial, readings, delay=0):
@@ -120,8 +129,7 @@ def asked_of_the_lab(monkeypatch):
     yield asked
     for eyes in agreement._eyes.values():
         eyes.close()
-    agreement._eyes.clear()
-    agreement._lab = None
+    agreement._move_in("icub")
 
 
 def test_each_loop_is_what_it_is_called_and_a_camera_is_opened_once(asked_of_the_lab, evolved_agent):

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
+from arm2d import Readings
 from arm2d.constants import BETA_MAX
 from mujoco_port.acting.gaps import FARTHEST, Gaps
 from mujoco_port.film.kinematic import roll_out
-from mujoco_port.reach.workspace import hand_headings, hand_targets
+from mujoco_port.reach.workspace import for_world, hand_headings, hand_targets
 
 RIGHT = 1
 OVERLAP_M = 3e-3  # a heading some degrees off lets the hand reach a little ahead of S2
@@ -15,7 +16,7 @@ TOUCH_M = 4e-3
 
 @pytest.fixture(scope="module")
 def gaps(robot):
-    return Gaps(robot)
+    return Gaps(for_world(robot, Readings()))
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +50,21 @@ def test_hand_touches_what_a_straight_s2_touches(robot, measured):
     straight = (beta <= robot.plane.lift_range[0])[:, np.newaxis] & (contact == RIGHT)
     assert straight.sum() > 50
     assert np.abs(hand[straight]).max() < TOUCH_M
+
+
+@pytest.mark.parametrize("radius", [0.1, 3.0, 8.0, 11.8])
+def test_objects_are_as_wide_as_the_discs_of_the_world_want_it(robot, kinematics, radius):
+    """Straight, S2 just touches the green disc that is to its right; so does the hand, whatever its size."""
+    laid, distance = for_world(robot, Readings(object_radius=radius)), 147.7
+    gaps = Gaps(laid)
+    for alpha in (20.0, 90.0, 160.0):
+        bearing = np.radians(alpha) - np.arcsin(radius / distance)
+        touched = laid.plane.scale * distance * np.array([np.cos(bearing), np.sin(bearing)])
+        angles = kinematics.settle(
+            hand_targets(laid.plane, alpha, 0.0), float(hand_headings(laid.plane, alpha, 0.0))
+        )
+        away = np.array([[0.4, -0.2], touched, [-0.6, -0.2]])
+        assert abs(gaps.measure(angles, away)[0][1]) < TOUCH_M
 
 
 def test_rest_of_the_arm_stays_away_from_all_objects(measured):

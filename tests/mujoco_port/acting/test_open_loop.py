@@ -3,6 +3,7 @@
 from itertools import islice
 
 import numpy as np
+import pytest
 
 from arm2d import Instruction, Readings, draw_trials
 from mujoco_port.acting.open_loop import OpenLoop, planar_angles
@@ -28,3 +29,10 @@ def test_delayed_agent_stands_still_for_so_many_steps_and_then_does_what_it_woul
     )
     assert late[:3] == [prompt[0]] * 3
     np.testing.assert_allclose(late[2:], prompt[:13], atol=1e-9)
+
+
+def test_a_table_with_objects_of_another_size_is_refused(lab, evolved_agent):
+    readings = Readings(object_radius=11.8)
+    trial = draw_trials([Instruction.parse("touch red")], 1, readings, np.random.default_rng(2))[0]
+    with pytest.raises(ValueError, match=r"those of this trial have 11.8 cm; make a lab for its world"):
+        lab.open_loop(evolved_agent, trial, readings)

@@ -5,11 +5,19 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from arm2d import Readings
 from models.robots import get_robot
 from mujoco_port.acting.contacts import LEFT_SIDE, RIGHT_SIDE
 from mujoco_port.acting.rollout import above_objects
 from mujoco_port.acting.stepping_over import stepping_over
-from mujoco_port.reach.workspace import hand_headings, hand_height, hand_targets, on_table, tip_in_plane
+from mujoco_port.reach.workspace import (
+    for_world,
+    hand_headings,
+    hand_height,
+    hand_targets,
+    on_table,
+    tip_in_plane,
+)
 
 HAND = np.array([0.1, 0.2])
 PRINT = get_robot("icub").plane.hand_print
@@ -37,6 +45,36 @@ def test_hand_is_raised_over_what_is_below_it_and_nothing_else(ahead, left, expe
     assert raised(ahead, left) == pytest.approx(expected)
 
 
+@pytest.mark.parametrize("radius", [3.0, 8.0, 11.8])
+@pytest.mark.parametrize(
+    ("first", "last", "outwards"),
+    [
+        ((0.0, 0.06), (0.0, 0.10), (0.0, 1.0)),  # beyond the thumb
+        ((0.0, -0.01), (0.0, 0.01), (0.0, -1.0)),  # at the little finger
+        ((0.04, 0.03), (0.08, 0.03), (1.0, 0.0)),  # beyond the fingers
+        ((-0.16, 0.03), (-0.11, 0.03), (-1.0, 0.0)),  # behind the wrist
+    ],
+)
+def test_hand_stays_as_far_from_a_wider_object_as_from_a_narrow_one(radius, first, last, outwards):
+    """Told by where the object's edge is, not its centre."""
+    plane = for_world(get_robot("icub"), Readings(object_radius=radius)).plane
+    places = np.linspace(first, last, 20)
+    moved = places + (plane.object_radius - 0.017) * np.array(outwards)
+    ours, theirs = (
+        [float(stepping_over(prints, np.zeros(2), 0.0, place[np.newaxis])) for place in each]
+        for prints, each in ((PRINT, places), (plane.hand_print, moved))
+    )
+    assert min(ours) < 0.5 < max(ours)
+    np.testing.assert_allclose(theirs, ours, atol=1e-9)
+
+
+def test_a_table_can_be_laid_anew():
+    robot = get_robot("icub")
+    laid = for_world(for_world(robot, Readings(object_radius=11.8)), Readings(object_radius=5.0)).plane
+    assert laid.object_radius == pytest.approx(robot.plane.object_radius)
+    assert laid.hand_print.width == pytest.approx(PRINT.width)
+
+
 def test_hand_rises_without_a_jump_while_it_comes_near():
     ways = [[raised(0.0, y) for y in np.arange(-0.05, 0.15, 1e-4)]]
     ways.append([raised(x, 0.03) for x in np.arange(-0.2, 0.1, 1e-4)])
@@ -53,12 +91,13 @@ def test_pushed_objects_of_all_trials_do_not_raise_the_hand(robot, champion_reco
     """S2 touches with its right side while it is straight: the hand must be low there."""
     seen = 0
     for record in champion_records:
+        hand_print = for_world(robot, record.readings).plane.hand_print
         tip = on_table(robot.plane, tip_in_plane(record.alpha, record.beta))
         heading = hand_headings(robot.plane, record.alpha, record.beta)
         pushed = (record.contact == 1) & (record.beta < 1.0)[:, np.newaxis]
         for k, target in np.argwhere(pushed):
             disc = on_table(robot.plane, record.discs[k, target])
-            assert stepping_over(PRINT, tip[k], heading[k], disc[np.newaxis]) < 0.1
+            assert stepping_over(hand_print, tip[k], heading[k], disc[np.newaxis]) < 0.1
             seen += 1
     assert seen > 100
 

@@ -160,7 +160,7 @@ def test_no_object_is_put_into_another(session):
 
 def test_wherever_an_object_is_put_it_stands_on_the_table_in_reach(lab):
     tops = [lab.body.model.geom(name) for name in ("top", "right_wing", "left_wing")]
-    rim = 0.017  # [m], of an object
+    rim = lab.body.model.geom("red").size[0]
     for angle in np.linspace(0.0, 2 * np.pi, 73):
         for far in (0.0, 50.0, 130.0, 400.0):
             place = 0.0018 * within(far * np.cos(angle), far * np.sin(angle))
