@@ -11,6 +11,7 @@ from arm2d import Condition, Readings
 from evolution.cli import main
 from evolution.commands.study import DECLARED_PARTS
 from evolution.study.declared.confirmation.decision import WINNER, decision, judged
+from evolution.study.declared.confirmation.figure import worlds_figure
 from evolution.study.declared.confirmation.verdict import decide, duel_table, less_one_table, world_table
 from evolution.study.declared.confirmation.worlds import (
     DEFAULT,
@@ -26,6 +27,7 @@ from evolution.study.declared.confirmation.worlds import (
     runs_of_worlds,
 )
 from evolution.study.declared.nearest import spreads
+from evolution.study.declared.outcomes import FIGURES
 from evolution.study.declared.parts import factorial
 from evolution.study.declared.results import chosen_worlds, regressions
 from evolution.study.declared.rows import write_rows
@@ -291,6 +293,22 @@ def study(tmp_path_factory):
     return folder
 
 
+def test_picture_shows_every_run_mean_and_published_value(spread):
+    own = runs_of_worlds(made_fresh({"b"}), fresh_worlds(CHOSEN))
+    figure = worlds_figure(own, decide(own, spread).distances, "title")
+    runs = [found for conditions in own.values() for found in conditions.values()]
+    for axes, outcome in zip(figure.axes, FIGURES, strict=True):
+        scale = 100 if outcome.is_share else 1
+        drawn = [np.asarray(line.get_xdata()) for line in axes.lines]
+        every = [scale * outcome.values(found) for found in runs]
+        np.testing.assert_allclose(np.concatenate(drawn[0::4]), np.concatenate(every))
+        np.testing.assert_allclose([each[0] for each in drawn[2::4]], [each.mean() for each in every])
+        published = [scale * outcome.published(condition) for _ in own for condition in Condition]
+        np.testing.assert_allclose([each[0] for each in drawn[3::4]], published)
+    counted = [text.get_text() for text in figure.axes[0].texts]
+    assert counted == [f"{sum(run.at_limit for run in found)} of {len(found)}" for found in runs]
+
+
 @pytest.mark.slow
 def test_confirmation_is_written_by_one_command(study, capsys):
     folder = study
@@ -302,6 +320,8 @@ def test_confirmation_is_written_by_one_command(study, capsys):
     assert sorted(path.name for path in results.iterdir()) == [
         "fresh-duels.csv",
         "fresh-worlds.csv",
+        "fresh-worlds.png",
+        "fresh-worlds.svg",
         "fresh.csv",
     ]
 
