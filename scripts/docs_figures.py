@@ -2,12 +2,13 @@
 
     python -m scripts.docs_figures
 
-draws what tables and results.npz hold: fitness, Table II, generalisers, learning curves, and all of the study
-of readings. The others need the runs: `wordarm analyse` and `wordarm behaviour` draw them.
+draws what tables and results.npz hold: fitness, Table II, generalisers, learning curves, and all of the study of
+readings but the factorial one. The others need the runs: `wordarm analyse` and `wordarm behaviour` draw them.
 """
 
 from __future__ import annotations
 
+import csv
 from pathlib import Path
 from typing import Final
 
@@ -28,6 +29,10 @@ from evolution.results.records import ConditionResults, Results
 from evolution.runs.folder import RunFolder
 from evolution.runs.storage import read_arrays
 from evolution.search.config import RunConfig
+from evolution.study.declared.confirmation.decision import WINNER
+from evolution.study.declared.confirmation.figure import TITLES, draw_worlds
+from evolution.study.declared.confirmation.worlds import PRINTED, PRINTED_WORLD, fresh_worlds, runs_of_worlds
+from evolution.study.declared.rows import read_rows
 from evolution.study.drawn import read_drawn
 from evolution.study.results import write_pictures
 
@@ -51,6 +56,33 @@ def main() -> None:
         others = [] if before is None else read_drawn(RESULTS / "readings" / f"{before}-runs.csv")
         variants = read_drawn(RESULTS / "readings" / f"{part}-runs.csv")
         print(*write_pictures(variants, part, RESULTS / "readings", others), sep="\n")
+    print(*confirmation_figures(RESULTS / "readings"), sep="\n")
+
+
+def confirmation_figures(folder: Path) -> list[Path]:
+    """The worlds of the confirmation and of the decision, from rows and distances; their paths."""
+    runs = read_rows(folder / "fresh.csv")
+    known = set(fresh_worlds([]).values())
+    worlds = fresh_worlds([r for r in dict.fromkeys(run.config.readings for run in runs) if r not in known])
+    paths = draw_worlds(
+        runs_of_worlds(runs, worlds),
+        distances_in(folder / "fresh-worlds.csv"),
+        TITLES["fresh"],
+        folder / "fresh-worlds",
+    )
+    decided = folder / "decision-worlds.csv"
+    if decided.exists():
+        runs = read_rows(folder / "decision.csv")
+        worlds = {WINNER: runs[0].config.readings, PRINTED: PRINTED_WORLD}
+        own = runs_of_worlds(runs, worlds)
+        paths += draw_worlds(own, distances_in(decided), TITLES["decision"], folder / "decision-worlds")
+    return paths
+
+
+def distances_in(table: Path) -> dict[str, float]:
+    """The distance of each world from the paper, as its table tells it."""
+    with table.open(encoding="utf-8", newline="") as file:
+        return {row["world"]: float(row["distance"]) for row in csv.DictReader(file)}
 
 
 def stored_results(arrays: dict[str, NDArray]) -> Results:

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Final
 
 from arm2d import Condition, Readings
-from evolution.figures.page import save_figure
 from evolution.report.columns import PlainTable
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.study.declared.claim import answer_table, answers, averaged_over_worlds, verdict
 from evolution.study.declared.confirmation.decision import WINNER, decision, judged
-from evolution.study.declared.confirmation.figure import worlds_figure
+from evolution.study.declared.confirmation.figure import TITLES, draw_worlds
 from evolution.study.declared.confirmation.verdict import (
     Verdict,
     decide,
@@ -27,7 +26,6 @@ from evolution.study.declared.confirmation.worlds import (
     PRINTED,
     PRINTED_WORLD,
     WHOLE_LENGTH,
-    RunsOfWorlds,
     departures,
     fresh,
     fresh_worlds,
@@ -109,8 +107,7 @@ class DeclaredStudy:
             "fresh-worlds": world_table(own, worlds, found.distances, found.beats),
             "fresh-duels": duel_table(found.duels),
         }
-        title = "Fresh seeds in the worlds that were declared"
-        pictures = _draw_worlds(own, found.distances, title, results / "fresh-worlds")
+        pictures = draw_worlds(own, found.distances, TITLES["fresh"], results / "fresh-worlds")
         return [*_write(tables.items(), results), *pictures], [self._said("fresh", runs, found.sentence)]
 
     def _write_decision(self, runs: Sequence[MeasuredRun], results: Path) -> Written:
@@ -122,8 +119,7 @@ class DeclaredStudy:
             "decision-worlds": world_table(own, worlds, found.distances, chosen),
             "decision-duels": duel_table(found.duels),
         }
-        title = "The winner and the printed readings, with seeds of their own"
-        pictures = _draw_worlds(own, found.distances, title, results / "decision-worlds")
+        pictures = draw_worlds(own, found.distances, TITLES["decision"], results / "decision-worlds")
         return [*_write(tables.items(), results), *pictures], [self._said("decision", runs, found.sentence)]
 
     def _said(self, name: str, runs: Sequence[MeasuredRun], sentence: str) -> str:
@@ -196,13 +192,6 @@ class DeclaredStudy:
 
 def _indicate(runs: Iterable[MeasuredRun]) -> list[MeasuredRun]:
     return [run for run in runs if run.config.condition is Condition.WITH_INDICATE]
-
-
-def _draw_worlds(runs: RunsOfWorlds, distances: Mapping[str, float], title: str, stem: Path) -> list[Path]:
-    """Draw and write the worlds beside the paper; the paths of PNG and SVG."""
-    seeds = sorted({run.config.seed for own in runs.values() for found in own.values() for run in found})
-    about = f"Seeds {seeds[0]} to {seeds[-1]}; in brackets: distance from the paper"
-    return save_figure(worlds_figure(runs, distances, title, about), stem)
 
 
 def _write(tables: Iterable[tuple[str, PlainTable[Any]]], folder: Path) -> list[Path]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -21,9 +22,10 @@ from evolution.figures.page import (
     beside,
     headed,
     paper_handle,
+    save_figure,
 )
+from evolution.results import wording
 from evolution.results.statistics import mean_interval
-from evolution.results.wording import TITLES
 from evolution.search.randomness import Purpose, generator
 from evolution.study.declared.confirmation.worlds import DEFAULT, PRINTED, RunsOfWorlds
 from evolution.study.declared.outcomes import FIGURES, Outcome
@@ -40,6 +42,22 @@ LABELS: Final = {
     DEFAULT: "default\nof then",
     PRINTED: "printed",
 }
+# By the part of the study.
+TITLES: Final = {
+    "fresh": "Fresh seeds in the worlds that were declared",
+    "decision": "The winner and the printed readings, with seeds of their own",
+}
+
+
+def draw_worlds(runs: RunsOfWorlds, distances: Mapping[str, float], title: str, stem: Path) -> list[Path]:
+    """Draw the worlds beside the paper and write them; the paths of PNG and SVG.
+
+    Raises:
+        OSError: If they cannot be written.
+    """
+    seeds = sorted({run.config.seed for own in runs.values() for found in own.values() for run in found})
+    about = f"Seeds {seeds[0]} to {seeds[-1]}; in brackets: distance from the paper"
+    return save_figure(worlds_figure(runs, distances, title, about), stem)
 
 
 def worlds_figure(runs: RunsOfWorlds, distances: Mapping[str, float], title: str, about: str = "") -> Figure:
@@ -108,7 +126,7 @@ def _legend() -> list[Line2D]:
     """What colours and marks mean."""
     dot = {"marker": "o", "ms": 3.6}
     return [
-        *(Line2D([], [], color=CONDITION_COLOURS[c], **dot, label=TITLES[c]) for c in Condition),
+        *(Line2D([], [], color=CONDITION_COLOURS[c], **dot, label=wording.TITLES[c]) for c in Condition),
         Line2D([], [], color=INK, ls="", marker="o", ms=1.6, alpha=0.35, label="a run"),
         Line2D([], [], color=INK, lw=1.2, **dot, label="mean, 95 %"),
         paper_handle(),
