@@ -2,8 +2,9 @@
 
     python -m scripts.docs_figures
 
-draws what tables and results.npz hold: fitness, Table II, generalisers, learning curves, and all of the study of
-readings but the factorial one. The others need the runs: `wordarm analyse` and `wordarm behaviour` draw them.
+draws what tables and results.npz hold: fitness, Table II, generalisers, learning curves, and the study of
+readings but for the levels of the factorial one. The others need the runs: `wordarm analyse` and `wordarm
+behaviour` draw them.
 """
 
 from __future__ import annotations
