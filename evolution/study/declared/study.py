@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import Any, Final
 
 from arm2d import Condition, Readings
+from evolution.figures.page import save_figure
 from evolution.report.columns import PlainTable
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.study.declared.claim import answer_table, answers, averaged_over_worlds, verdict
+from evolution.study.declared.claim_figure import claim_figure
 from evolution.study.declared.confirmation.decision import WINNER, decision, judged
 from evolution.study.declared.confirmation.figure import TITLES, draw_worlds
 from evolution.study.declared.confirmation.verdict import (
@@ -154,7 +156,11 @@ class DeclaredStudy:
             notes.append(f"printed readings: {error}")
         table = [("claim", answer_table(sources))]
         said = f"INDICATE fosters compositionality: {verdict(own[0], over_worlds[0].difference)}"
-        return _write(table, results), [*notes, said]
+        title = "Does INDICATE foster compositionality?"
+        counted = f"{len(default)} runs under the default, {len(printed)} under the printed readings"
+        about = f"{counted}, and the worlds that both conditions met"
+        figure = claim_figure(dict(sources), title, about)
+        return [*_write(table, results), *save_figure(figure, results / "claim")], [*notes, said]
 
     @cached_property
     def _factorial(self) -> list[MeasuredRun]:

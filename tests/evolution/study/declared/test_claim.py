@@ -16,11 +16,13 @@ from evolution.study.declared.beta_binomial import compare_counts
 from evolution.study.declared.claim import (
     FULL,
     QUESTIONS,
+    Answer,
     answers,
     averaged_over_worlds,
     shares_by_world,
     verdict,
 )
+from evolution.study.declared.claim_figure import claim_figure
 from evolution.study.declared.confirmation.worlds import hundred
 from evolution.study.declared.parts import DeclaredPart
 from evolution.study.declared.plan import RowFile, carry_out
@@ -186,6 +188,47 @@ def test_claim_is_written_by_one_command(tmp_path, capsys):
     with (tmp_path / "hundred" / "results" / "claim.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert {row["runs"] for row in rows} == {"default", "factorial worlds"}
+    assert (tmp_path / "hundred" / "results" / "claim.png").is_file()
+
+
+def test_picture_has_every_answer_of_every_source_beside_its_means():
+    """Read back: where dots and intervals lie, which are filled, and what is written beside them."""
+    names = [question.name for question in QUESTIONS] + [f"runs with {FULL} agents"]
+    sources = {
+        source: [
+            Answer(
+                name,
+                (9, 9),
+                (0.6 + 0.01 * k, 0.3),
+                Estimate(0.3 + 0.01 * k + shift, 0.2 + shift, 0.6 + shift),
+                0.01,
+                corrected=0.2 * (k % 2),
+            )
+            for k, name in enumerate(names)
+        ]
+        for source, shift in (("default", 0.0), ("printed", 0.05))
+    }
+    figure = claim_figure(sources, "title")
+    given = {
+        (
+            round(100 * answer.difference.value, 6),
+            round(100 * answer.difference.low, 6),
+            round(100 * answer.difference.high, 6),
+            answer.corrected < 0.05,
+            f"{100 * answer.means[0]:.2g} : {100 * answer.means[1]:.2g} %",
+        )
+        for found in sources.values()
+        for answer in found
+    }
+    drawn = set()
+    for axes in figure.axes:
+        written = [text.get_text() for text in axes.texts if "%" in text.get_text()]
+        lines = [line for line in axes.lines if line.get_label() != "zero"]
+        for interval, dot, text in zip(lines[0::2], lines[1::2], written, strict=True):
+            (low, high), (value,) = interval.get_xdata(), dot.get_xdata()
+            filled = dot.get_markerfacecolor() != "white"
+            drawn.add((round(value, 6), round(low, 6), round(high, 6), filled, text))
+    assert drawn == given
 
 
 def test_runs_of_the_hundred_are_tested_whole(tmp_path):
