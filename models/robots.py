@@ -54,6 +54,7 @@ class PlaneMap:
         hand_height: [m], height of the hand's reference point above the table top while S2 is straight.
         lift: [m], how much higher it is while S2 is bent: above the objects, which a bent S2 passes by.
         lift_range: [deg], beta at which the hand begins to rise, and from which on it is lifted fully.
+        rim: [cm], from J1 to where the discs begin: with its end nearer than this S2 meets none of them.
         heading_lead: [rad], how much further to the right than the radial direction from J1 the hand points:
             a pushed object is some degrees ahead of the hand, and is to be pushed along its own arc.
         heading_range: [rad], the hand turns no further than this: beyond, the arm would have to fold behind
@@ -61,13 +62,17 @@ class PlaneMap:
         hand_edge: [m], how far to the left of the reference point the hand's rightmost places are: an object
             reaches so much further than the disc it plays, and the hand meets it when S2 meets the disc.
         object_radius: [m], of the three objects: `hand_edge` + `scale` * the disc's radius in [cm].
-        hand_print: Over what the hand does not come down, with objects of this radius.
+        hand_print: Over what the hand does not come down.
+
+    `lift_range` and `hand_print` go with `rim` and `object_radius`, here those of discs of 5 cm; the port fits
+    all four to another world.
     """
 
     scale: float
     hand_height: float
     lift: float
     lift_range: tuple[float, float]
+    rim: float
     heading_lead: float
     heading_range: tuple[float, float]
     hand_edge: float
@@ -192,10 +197,11 @@ ICUB = Robot(
         hand_height=0.029,
         lift=0.061,
         lift_range=(24.0, 43.0),
+        rim=142.7211629518312,
         heading_lead=pi / 30,
         heading_range=(-pi / 6, 17 * pi / 18),
         hand_edge=0.008,
-        object_radius=0.017,  # plays a disc of 5 cm; the port lays the table for others
+        object_radius=0.017,
         hand_print=HandPrint(
             left_of_edge=(-0.004, 0.008),  # a pushed object is 9 mm to the right
             width=(0.092, 0.066),

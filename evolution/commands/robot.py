@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from tyro.conf import Positional, arg
 
+from arm2d import Readings
 from evolution.commands.agent import AgentCommand
 
 if TYPE_CHECKING:
@@ -199,10 +200,11 @@ class Workspace:
         from evolution.runs.storage import make_folder, write_arrays
         from mujoco_port.reach.certificate import certify, check_step
         from mujoco_port.reach.certificate_figure import draw_certificate
+        from mujoco_port.reach.workspace import for_world
 
         check_step(self.step_deg)
         make_folder(self.output)
-        certificate = certify(robot, step_deg=self.step_deg)
+        certificate = certify(for_world(robot, Readings()), step_deg=self.step_deg)
         stem = self.output / f"workspace-{robot.name}"
         path = stem.with_suffix(".npz")
         write_arrays(path, certificate.arrays())

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from arm2d.constants import S1_LENGTH, S2_LENGTH
+from arm2d.constants import CHORD_END_DISTANCE, S1_LENGTH, S2_LENGTH
 from arm2d.readings import Readings
 from models.robots import PlaneMap, Robot
 
@@ -92,9 +92,12 @@ def for_world(robot: Robot, readings: Readings) -> Robot:
     """Give the same robot at a table whose objects play the discs of this world.
 
     The hand meets an object when S2 meets its disc if the object's radius is that of the disc and what the
-    hand's edge is to the left of S2. Over wider objects it stays raised from further away on.
+    hand's edge is to the left of S2. Over wider objects it stays raised from further away on; and where discs
+    begin nearer to J1, S2 meets them while it is bent further, and the hand is lifted later.
     """
     plane = robot.plane
+    rim = middle_of_chord(readings) - readings.object_radius
+    later = bend_at(rim) - bend_at(plane.rim)
     radius = plane.hand_edge + plane.scale * readings.object_radius
     wider = radius - plane.object_radius
     over = plane.hand_print
@@ -105,11 +108,22 @@ def for_world(robot: Robot, readings: Readings) -> Robot:
         length=(over.length[0] + wider, over.length[1] + wider),
         before_wrist=(over.before_wrist[0] - wider, over.before_wrist[1] - wider),
     )
-    return replace(robot, plane=replace(plane, object_radius=radius, hand_print=hand_print))
+    lift_range = plane.lift_range[0] + later, plane.lift_range[1] + later
+    laid = replace(plane, lift_range=lift_range, rim=rim, object_radius=radius, hand_print=hand_print)
+    return replace(robot, plane=laid)
+
+
+def middle_of_chord(readings: Readings) -> float:
+    """How far from J1 the middles of the discs' chords are, in [cm]."""
+    return float(CHORD_END_DISTANCE * np.cos(np.radians(readings.sector_half_width)))
+
+
+def bend_at(reach: float) -> float:
+    """Beta in [deg] with which the end of S2 is so far from J1, in [cm]."""
+    cosine = (reach**2 - S1_LENGTH**2 - S2_LENGTH**2) / (2 * S1_LENGTH * S2_LENGTH)
+    return float(np.degrees(np.arccos(np.clip(cosine, 0.0, 1.0))))
 
 
 def beta_of(plane: PlaneMap, hand: np.ndarray) -> float:
     """Give beta in [deg] from where the hand is, [3] in [m]: the further from J1, the straighter is S2."""
-    reach = np.hypot(hand[0], hand[1]) / plane.scale
-    cosine = (reach**2 - S1_LENGTH**2 - S2_LENGTH**2) / (2 * S1_LENGTH * S2_LENGTH)
-    return float(np.degrees(np.arccos(np.clip(cosine, 0.0, 1.0))))
+    return bend_at(float(np.hypot(hand[0], hand[1])) / plane.scale)

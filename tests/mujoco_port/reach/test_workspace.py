@@ -3,8 +3,16 @@
 import numpy as np
 import pytest
 
+from arm2d.readings import PLAIN
 from models.build import build_model
-from mujoco_port.reach.workspace import beta_of, hand_headings, hand_height, hand_targets, tip_in_plane
+from mujoco_port.reach.workspace import (
+    beta_of,
+    for_world,
+    hand_headings,
+    hand_height,
+    hand_targets,
+    tip_in_plane,
+)
 
 
 @pytest.fixture(scope="module")
@@ -17,6 +25,21 @@ def test_hand_is_low_while_s2_is_straight_and_lifted_while_it_is_bent(robot):
     first, last = plane.lift_range
     assert hand_height(plane, 0.0) == hand_height(plane, first) == plane.hand_height
     assert hand_height(plane, last) == hand_height(plane, 90.0) == plane.hand_height + plane.lift
+
+
+@pytest.mark.parametrize(
+    "world", [{"object_radius": 8.0}, {"object_radius": 3.0}, {"sector_half_width": 5.0}]
+)
+def test_hand_is_as_high_where_discs_begin_in_every_world(robot, world):
+    """S2, bent as far as it can be when it meets a disc, ends where the disc in its chord's middle begins."""
+    heights = []
+    for readings in (PLAIN, PLAIN.with_values(world)):
+        begins = 150.0 * np.cos(np.radians(readings.sector_half_width)) - readings.object_radius
+        bent = beta_of(robot.plane, robot.plane.scale * np.array([begins, 0.0]))
+        assert np.linalg.norm(tip_in_plane(0.0, bent)) == pytest.approx(begins)
+        heights.append(float(hand_height(for_world(robot, readings).plane, bent)))
+    assert heights[0] == pytest.approx(heights[1])
+    assert robot.plane.hand_height < heights[0] < robot.plane.hand_height + robot.plane.lift
 
 
 def test_hand_rises_steadily_with_beta(robot, beta):
