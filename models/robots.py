@@ -64,8 +64,8 @@ class PlaneMap:
         object_radius: [m], of the three objects: `hand_edge` + `scale` * the disc's radius in [cm].
         hand_print: Over what the hand does not come down.
 
-    `lift_range` and `hand_print` go with `rim` and `object_radius`, here those of discs of 5 cm; the port fits
-    all four to another world.
+    `lift_range` and `hand_print` go with `rim` and `object_radius`, here those of discs of 5 cm; the port
+    fits all four to another world.
     """
 
     scale: float
