@@ -68,7 +68,8 @@ def costs_of_a_moment(closed: bool) -> dict[str, float]:
         return Start(float(record.alpha[0]), record.discs[0])
 
     actor = Actor(agent.name, agent.genotype, agent.readings, instructions)
-    session, posture = Session(Lab(robot), actor, draw, closed=closed), Posture(robot)
+    lab = Lab(robot, agent.readings)
+    session, posture = Session(lab, actor, draw, closed=closed), Posture(lab.body.robot)
     parts = ("physics, agent and judges", "the state, for the panels", "where everything is")
     spent, moments = dict.fromkeys(parts, 0.0), 0
     for words in ("touch green", "move red", "indicate blue"):

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -82,7 +83,7 @@ def main(agents: tuple[str, ...]) -> None:
         total = tally(agent)
         touched = np.percentile(total.touched, [1, 50, 99]) * 1e3 if total.touched else [np.nan] * 3
         table.add_row(
-            agent.name,
+            Path(each).name,
             str(total.successes),
             str(total.overlapping),
             str(total.missing),

@@ -93,14 +93,14 @@ def main() -> None:
 
     for name, quality in QUALITIES.items():
         calls = N_FRAMES if quality.oversampling == 1 else N_FRAMES // 10
-        with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX, quality) as stage:
+        with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX, quality, take.record.readings) as stage:
             bearing = turn(stage)
             row(f"robot, {name}", measure(lambda k, s=stage: (show(s, k), s.picture()), calls))
             row(
                 "  a contact from above",
                 measure(lambda k, s=stage: (show(s, k), s.close_up(*NEAR, INSET_PX)), calls),
             )
-    with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX) as stage:
+    with Stage(robot, ROBOT_WIDTH_PX, HEIGHT_PX, readings=take.record.readings) as stage:
         cpu, clock = measure(lambda _: turn(stage), 1)
         row("neck, eyes and fingers", (cpu / n, clock / n))
     row("the agent's mind", measure(lambda k: panel.frame(take.steps[k]), n - 1))

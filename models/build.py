@@ -64,7 +64,10 @@ def build_spec(robot: Robot, finer: float = 1.0) -> mujoco.MjSpec:
 
 
 def build_model(robot: Robot) -> mujoco.MjModel:
-    """Compile the robot and its table; about one second, most of it for the meshes."""
+    """Compile the robot and its table; about one second, most of it for the meshes.
+
+    Objects are as wide as the record says; `mujoco_port.reach.workspace.for_world` gives that of a world.
+    """
     return build_spec(robot).compile()
 
 

@@ -64,8 +64,8 @@ class PlaneMap:
         object_radius: [m], of the three objects: `hand_edge` + `scale` * the disc's radius in [cm].
         hand_print: Over what the hand does not come down.
 
-    `lift_range` and `hand_print` go with `rim` and `object_radius`, here those of discs of 5 cm; the port
-    fits all four to another world.
+    `lift_range` and `hand_print` were measured with objects of `object_radius` whose discs begin at `rim`;
+    the port fits all four to the world of a trial. How wide objects are is a matter of `hand_edge`.
     """
 
     scale: float

@@ -74,7 +74,8 @@ def confirmation_figures(folder: Path) -> list[Path]:
     decided = folder / "decision-worlds.csv"
     if decided.exists():
         runs = read_rows(folder / "decision.csv")
-        worlds = {WINNER: runs[0].config.readings, PRINTED: PRINTED_WORLD}
+        winner = next(r for run in runs if (r := run.config.readings) != PRINTED_WORLD)
+        worlds = {WINNER: winner, PRINTED: PRINTED_WORLD}
         own = runs_of_worlds(runs, worlds)
         paths += draw_worlds(own, distances_in(decided), TITLES["decision"], folder / "decision-worlds")
     return paths

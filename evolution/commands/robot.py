@@ -191,7 +191,9 @@ class Workspace:
                 )
             robot = replace(robot, plane=replace(robot.plane, scale=self.scale))
         from mujoco_port.film.gl import without_drawing
+        from mujoco_port.reach.workspace import for_world
 
+        robot = for_world(robot, Readings())
         with without_drawing():
             return self._search(robot) if self.search else self._certify(robot)
 
@@ -200,11 +202,10 @@ class Workspace:
         from evolution.runs.storage import make_folder, write_arrays
         from mujoco_port.reach.certificate import certify, check_step
         from mujoco_port.reach.certificate_figure import draw_certificate
-        from mujoco_port.reach.workspace import for_world
 
         check_step(self.step_deg)
         make_folder(self.output)
-        certificate = certify(for_world(robot, Readings()), step_deg=self.step_deg)
+        certificate = certify(robot, step_deg=self.step_deg)
         stem = self.output / f"workspace-{robot.name}"
         path = stem.with_suffix(".npz")
         write_arrays(path, certificate.arrays())

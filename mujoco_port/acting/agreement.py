@@ -25,7 +25,7 @@ from arm2d.cache import sources_digest
 from arm2d.files import handle_to_append, read_file, write_whole
 from arm2d.records import brief
 from arm2d.trials import START_AREAS
-from models.robots import Robot, get_robot
+from models.robots import PlaneMap, Robot, get_robot
 
 if TYPE_CHECKING:
     from mujoco_port.acting.lab import Lab
@@ -215,8 +215,8 @@ def _outcome(row: Sequence[str]) -> Outcome:
 
 
 _robot: Robot | None = None
-_labs: dict[float, Lab] = {}  # by the radius of the discs
-_eyes: dict[tuple[float, str], Eyes] = {}  # by that and where the camera sits
+_labs: dict[PlaneMap, Lab] = {}  # by how the table is laid
+_eyes: dict[tuple[PlaneMap, str], Eyes] = {}  # by that and where the camera sits
 
 
 def _move_in(robot: str, head: Head = "turns") -> None:
@@ -229,19 +229,21 @@ def _move_in(robot: str, head: Head = "turns") -> None:
 
 
 def lab_for(readings: Readings) -> Lab:
-    """The robot of this process at a table for a world, built once for each size of discs."""
+    """The robot of this process at a table for a world; each table is laid once."""
+    from mujoco_port.acting.lab import Lab
+    from mujoco_port.reach.workspace import for_world
+
     if _robot is None:
         raise RuntimeError("there is no robot in this process")
-    if readings.object_radius not in _labs:
-        from mujoco_port.acting.lab import Lab
-
-        _labs[readings.object_radius] = Lab(_robot, readings)
-    return _labs[readings.object_radius]
+    plane = for_world(_robot, readings).plane
+    if plane not in _labs:
+        _labs[plane] = Lab(_robot, readings)
+    return _labs[plane]
 
 
 def camera_for(lab: Lab, readings: Readings) -> Eyes:
     """The eyes of a lab's robot, opened once for each place of the camera."""
-    key = readings.object_radius, readings.camera_origin
+    key = lab.body.robot.plane, readings.camera_origin
     if key not in _eyes:
         from mujoco_port.acting.camera import CameraEyes
 

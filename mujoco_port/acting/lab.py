@@ -31,8 +31,8 @@ class Lab:
 
     Args:
         robot: Its record, or its name.
-        readings: A world: the objects on the table are as large as its discs want it. Worlds with discs of
-            another size need a lab of their own.
+        readings: A world, for which the table is laid (`for_world`). Trials of worlds with discs of another
+            size, or in sectors of another width, need a lab of their own.
 
     Attributes:
         body: The robot in MuJoCo.
@@ -48,17 +48,18 @@ class Lab:
         self.kinematics = ArmKinematics(chosen)
 
     def check_world(self, readings: Readings) -> None:
-        """Refuse a world whose discs the objects on this table do not play.
+        """Refuse a world for which this table is not laid.
 
         Raises:
-            ValueError: If they are made for discs of another size.
+            ValueError: If its discs have another size, or begin elsewhere.
         """
         plane = self.body.robot.plane
-        if for_world(self.body.robot, readings).plane.object_radius != plane.object_radius:
-            played = (plane.object_radius - plane.hand_edge) / plane.scale
+        if (wanted := for_world(self.body.robot, readings).plane) != plane:
+            laid = (plane.object_radius - plane.hand_edge) / plane.scale
             raise ValueError(
-                f"the objects on this robot's table play discs of {played:.3g} cm, those of this trial have "
-                f"{readings.object_radius:g} cm; make a lab for its world: Lab(robot, readings)"
+                f"this table is laid for discs of {laid:.3g} cm that begin {plane.rim:.1f} cm from J1, those "
+                f"of this trial have {readings.object_radius:g} cm and begin at {wanted.rim:.1f}; make a lab "
+                "for its world: Lab(robot, readings)"
             )
 
     def open_loop(
@@ -127,7 +128,7 @@ class Lab:
         """Carry out a trial under anybody's orders, until its verdict is certain or the orders end.
 
         Raises:
-            ValueError: If the objects on the table do not play the discs of this world.
+            ValueError: If the table is not laid for this world.
             OutOfReachError: If the robot cannot reach a place.
         """
         self.check_world(readings)

@@ -27,6 +27,7 @@ GLOW_ENDS: Final = 30.0  # from where on nothing of it is left
 SOFT_CM: Final = 0.8  # width of the edge of a line of light
 FAINTEST: Final = 0.004  # a weaker light changes no pixel
 RING_CM: Final = 4.0  # and that of a ring around what is touched
+RING: Final = 1.12  # its radius, of the object's
 ARM_COLOUR: Final = (1.00, 0.98, 0.92)
 CAMERA_COLOUR: Final = (0.98, 0.84, 0.34)
 GROUND_COLOUR: Final = (0.72, 0.80, 0.90)

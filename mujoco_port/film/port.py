@@ -99,9 +99,11 @@ def port_gallery(
 
 
 def check_gallery(records: Sequence[TrialRecord], rates: ArrayLike | None) -> NDArray[np.float64] | None:
-    """The rates [9], if known; all but nine trials and nine shares are refused by a ValueError."""
+    """The rates [9], if known; all but nine trials of one world, and nine shares, are a ValueError."""
     if len(records) != N_GALLERY:
         raise ValueError(f"a gallery has {N_GALLERY} trials, not {len(records)}; give one per instruction")
+    if len({record.readings for record in records}) > 1:
+        raise ValueError("the trials of a gallery are from different worlds; give those of one")
     if rates is None:
         return None
     known = np.asarray(rates, np.float64)

@@ -26,6 +26,7 @@ from arm2d.records import brief
 from models.build import OBJECTS, VISUAL_GROUP
 from models.physics import TABLE_TOPS
 from models.robots import Robot
+from mujoco_port.film.light import RING
 from mujoco_port.live.marks import marks
 from mujoco_port.live.posture import Posture
 from mujoco_port.live.surfaces import Surface, surface_of
@@ -128,9 +129,10 @@ def joined(parts: list[Part]) -> list[Part]:
 
 
 def plane_of(robot: Robot, readings: Readings) -> dict[str, Any]:
-    """What moves and shines on the table, in [cm] and [deg]."""
+    """What moves and shines on the table of a robot that is laid for these readings, in [cm] and [deg]."""
     return {
         "scale": robot.plane.scale,
+        "ring": RING * robot.plane.object_radius / robot.plane.scale,
         "s1": c.S1_LENGTH,
         "s2": c.S2_LENGTH,
         "cameraAtEnd": readings.camera_origin == "end",

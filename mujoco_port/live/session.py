@@ -73,7 +73,7 @@ class Session:
         version: Grows whenever there is more to tell than where things are.
 
     Raises:
-        ValueError: If the objects on the table do not play the discs of the actor's world.
+        ValueError: If the table is not laid for the actor's world.
     """
 
     def __init__(

@@ -162,7 +162,7 @@ def certify(robot: Robot, *, step_deg: float = STEP_DEG) -> Certificate:
 
 
 def raised(robot: Robot) -> Robot:
-    """The same robot with its hand raised at every beta."""
+    """The same robot, its table laid before, with its hand raised at every beta."""
     return replace(robot, plane=replace(robot.plane, lift_range=(BETA_MIN - 2.0, BETA_MIN - 1.0)))
 
 

@@ -97,7 +97,8 @@ def for_world(robot: Robot, readings: Readings) -> Robot:
     """
     plane = robot.plane
     rim = middle_of_chord(readings) - readings.object_radius
-    later = bend_at(rim) - bend_at(plane.rim)
+    # Not so early that a straight S2 found the hand raised.
+    later = max(bend_at(rim) - bend_at(plane.rim), -plane.lift_range[0])
     radius = plane.hand_edge + plane.scale * readings.object_radius
     wider = radius - plane.object_radius
     over = plane.hand_print

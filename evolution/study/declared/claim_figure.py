@@ -74,9 +74,14 @@ def _draw(axes: Axes, found: Sequence[Answer], names: Sequence[str], place: int,
         axes.plot([100 * difference.low, 100 * difference.high], [y, y], color=colour, lw=1.1, zorder=3)
         face = colour if known else "white"
         axes.plot([100 * difference.value], [y], "o", ms=3.6, mfc=face, mec=colour, mew=0.8, zorder=4)
-        ours, theirs = (f"{100 * mean:.2g}" for mean in answer.means)
+        ours, theirs = (percent(mean) for mean in answer.means)
         text, style = f"{ours} : {theirs} %", {"va": "center", "ha": "left", "fontsize": SMALL - 1}
         beside(axes, text, (1.0, y), (5.0, 0.0), xycoords=RIGHT_END, color=colour, **style)
+
+
+def percent(share: float) -> str:
+    """A share in per cent with two digits, and 100."""
+    return f"{100 * share:.0f}" if share >= 0.095 else f"{100 * share:.2g}"
 
 
 def _finish(axes: Axes, what: str, names: Sequence[str]) -> None:

@@ -17,11 +17,11 @@ from models.build import HAND_SITE, OBJECTS
 from models.filmed import film_spec
 from models.robots import Robot
 from mujoco_port.film.gl import new_context
+from mujoco_port.film.light import RING
 from mujoco_port.film.quality import Quality
 from mujoco_port.film.stage.lamps import share_light
 from mujoco_port.reach.workspace import for_world, on_table
 
-RING: Final = 1.12  # radius of the light around it, of the object's
 BEAM_M: Final = 0.0013  # half the width of the beam from the hand to S2's end
 BEAM_COLOUR: Final = np.array([1.0, 0.95, 0.78, 1.0], np.float32)
 BEAM_SHAPE: Final = int(mujoco.mjtGeom.mjGEOM_CAPSULE)
@@ -35,7 +35,7 @@ class Backstage:
         width_px: Width and
         height_px: height of the largest picture.
         quality: What is drawn, and how finely.
-        readings: Of the planar world that is drawn as light on the table.
+        readings: Of the planar world that is drawn as light on the table, and whose discs the objects play.
 
     Attributes:
         model: Of MuJoCo.

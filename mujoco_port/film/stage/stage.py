@@ -33,7 +33,7 @@ class Stage:
         width_px: Width and
         height_px: height of a picture.
         quality: What is drawn, and how finely.
-        readings: Of the planar world that is drawn as light on the table.
+        readings: Of the planar world that is drawn as light on the table, and whose discs the objects play.
     """
 
     def __init__(
@@ -44,8 +44,8 @@ class Stage:
         quality: Quality = QUALITIES["normal"],
         readings: Readings | None = None,
     ) -> None:
-        self.robot = robot
         self._back = back = Backstage(robot, width_px, height_px, quality, readings or Readings())
+        self.robot = back.robot
         self.model, self.data = back.model, back.data
         self._joints = [self.model.joint(ROBOT_PREFIX + name).qposadr[0] for name in robot.joints]
         self._heights = [self.model.body(name).pos[2] for name in OBJECTS]

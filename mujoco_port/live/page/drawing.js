@@ -7,7 +7,6 @@ import { FLOOR, PLAIN, SHADOW_FRAGMENT, SHADOW_VERTEX, TABLE, VERTEX } from "./s
 const SHADOW_PX = { true: 1024, false: 512 };
 const LAMP = multiply(box(0.72, 0.62, 0.2, 3.4), lookAt([0.4, 1.05, 1.75], [-0.05, 0.07, 0.1], [0, 0, 1]));
 const ATTRIBUTES = { place: [3, 0], normal: [3, 3], body: [1, 6], kind: [1, 7], colour: [3, 8], gloss: [3, 11] };
-const RING = 1.12 * 0.017; // [m]
 
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software/i;
 
@@ -87,7 +86,7 @@ function tell({ gl, head, rows, fine, shaded }, at, moment, look) {
   gl.uniform4f(at("lens"), plane.cameraRange, middle, all, plane.cameraAtEnd ? 1 : 0);
   const rings = rows.flatMap((row, k) => {
     const [x, y] = moment.poses.subarray(7 * row, 7 * row + 2);
-    return [x / plane.scale, y / plane.scale, (moment.touched >> k) & 1 ? RING / plane.scale : 0];
+    return [x / plane.scale, y / plane.scale, (moment.touched >> k) & 1 ? plane.ring : 0];
   });
   gl.uniform3fv(at("rings"), rings);
 }

@@ -96,6 +96,8 @@ def test_agents_of_worlds_with_other_discs_act_at_tables_of_their_own():
     assert agreement.lab_for(Readings(object_radius=8.0, turn="radians")) is large
     widths = [lab.body.model.geom("red").size[0] for lab in (small, large)]
     assert widths == pytest.approx([0.017, 0.0224])
+    narrow = agreement.lab_for(Readings(object_radius=5.0, sector_half_width=5.0))
+    assert narrow.body.robot.plane.lift_range[0] < small.body.robot.plane.lift_range[0] - 4.0
     agreement._move_in("icub")
 
 

@@ -7,6 +7,7 @@ from arm2d import Readings
 from arm2d.constants import BETA_MAX
 from mujoco_port.acting.gaps import FARTHEST, Gaps
 from mujoco_port.film.kinematic import roll_out
+from mujoco_port.reach.driving import drive
 from mujoco_port.reach.workspace import for_world, hand_headings, hand_targets
 
 RIGHT = 1
@@ -65,7 +66,16 @@ def test_objects_are_as_wide_as_the_discs_of_the_world_want_it(robot, kinematics
             hand_targets(laid.plane, alpha, 0.0), float(hand_headings(laid.plane, alpha, 0.0))
         )
         away = np.array([[0.4, -0.2], touched, [-0.6, -0.2]])
-        assert abs(gaps.measure(angles, away)[0][1]) < TOUCH_M
+        assert abs(gaps.measure(angles, away)[0][1]) < 2e-3
+
+
+@pytest.mark.parametrize("radius", [5.0, 8.0])
+def test_robot_follows_a_trial_at_the_table_of_its_world(robot, radius):
+    """At 28 degrees S2 may still meet a disc of 8 cm, and the hand is low; above those of 5 cm it rises."""
+    readings = Readings().with_values({"object_radius": radius, "sector_half_width": 10.0})
+    record = drive("indicate green", np.full(6, -25.0), np.full(6, 28.0), readings=readings)
+    height = roll_out(record, robot).targets[-1, 2]
+    assert (height == pytest.approx(robot.plane.hand_height)) == (radius == 8.0)
 
 
 def test_rest_of_the_arm_stays_away_from_all_objects(measured):

@@ -31,8 +31,18 @@ def test_delayed_agent_stands_still_for_so_many_steps_and_then_does_what_it_woul
     np.testing.assert_allclose(late[2:], prompt[:13], atol=1e-9)
 
 
-def test_a_table_with_objects_of_another_size_is_refused(lab, evolved_agent):
-    readings = Readings(object_radius=11.8)
+@pytest.mark.parametrize(
+    ("world", "told"),
+    [
+        (
+            {"object_radius": 11.8},
+            r"those of this trial have 11.8 cm and begin at 135\.9; make a lab for its",
+        ),
+        ({"sector_half_width": 5.0}, r"begin at 14\d\.4; make a lab for its world: Lab\(robot, readings\)"),
+    ],
+)
+def test_a_table_laid_for_another_world_is_refused(lab, evolved_agent, world, told):
+    readings = Readings().with_values(world)
     trial = draw_trials([Instruction.parse("touch red")], 1, readings, np.random.default_rng(2))[0]
-    with pytest.raises(ValueError, match=r"those of this trial have 11.8 cm; make a lab for its world"):
+    with pytest.raises(ValueError, match=told):
         lab.open_loop(evolved_agent, trial, readings)

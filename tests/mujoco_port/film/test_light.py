@@ -25,6 +25,12 @@ def stage(robot):
         yield stage
 
 
+def test_what_stands_on_the_stage_plays_the_discs_of_the_world(robot):
+    with Stage(robot, 64, 64, QUALITIES["draft"], Readings(object_radius=8.0)) as stage:
+        assert stage.model.geom("red").size[0] == pytest.approx(0.0224)
+        assert stage.robot.plane.object_radius == pytest.approx(0.0224)
+
+
 def brightened(stage, centre):
     """How much brighter pixels of a square of the table become by the arm's light, and their places [cm]."""
     arm, stage._back.arm = stage._back.arm, None

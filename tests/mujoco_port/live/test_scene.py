@@ -10,8 +10,9 @@ from arm2d import Readings
 from mujoco_port.live import surfaces
 from mujoco_port.live.marks import marks
 from mujoco_port.live.posture import Posture
-from mujoco_port.live.scene import scene
+from mujoco_port.live.scene import plane_of, scene
 from mujoco_port.live.session import Moment
+from mujoco_port.reach.workspace import for_world
 
 SIZE = np.array([0.05, 0.03, 0.02])
 
@@ -67,6 +68,15 @@ def test_the_bytes_hold_what_their_head_says(posture, robot):
     behind = kinds.index("table")  # is painted last
     assert kinds[behind:] == ["table", "floor", "floor"]
     assert len(content) < 3_000_000
+
+
+def test_a_ring_is_as_wide_as_the_object_it_lies_around(robot):
+    for radius, wide in ((5.0, 0.017), (8.0, 0.0224)):
+        readings = Readings(object_radius=radius)
+        laid = for_world(robot, readings)
+        model = Posture(laid).model
+        assert model.geom("green").size[0] == pytest.approx(wide)
+        assert plane_of(laid, readings)["ring"] == pytest.approx(1.12 * wide / 0.0018)
 
 
 def test_marks_lie_where_the_planar_world_has_them():

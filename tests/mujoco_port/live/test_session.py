@@ -8,10 +8,11 @@ import pytest
 from arm2d import Instruction, ObjectWord, Readings, Trials, record_trial
 from mujoco_port.acting.lab import Lab
 from mujoco_port.live.orders import Again, Loop, Place, Reset, Run, Say, Speed
-from mujoco_port.live.placing import within
+from mujoco_port.live.placing import Placing
 from mujoco_port.live.planar import PlanarTrial
 from mujoco_port.live.session import Session
 from mujoco_port.live.trial import LET_GO, held
+from mujoco_port.reach.workspace import for_world
 
 
 def words(text):
@@ -158,9 +159,24 @@ def test_no_object_is_put_into_another(session):
         session.do(Place(ObjectWord.RED, green[0] + 15.0, green[1]))
 
 
-def test_wherever_an_object_is_put_it_stands_on_the_table_in_reach(lab):
+@pytest.mark.parametrize("radius", [5.0, 8.0, 11.8])
+def test_objects_are_put_as_near_to_each_other_as_they_are_wide(robot, radius):
+    plane = for_world(robot, Readings(object_radius=radius)).plane
+    discs, wide = (
+        np.array([[0.0, 150.0], [-130.0, 75.0], [130.0, 75.0]]),
+        2 * plane.object_radius / plane.scale,
+    )
+    placing = Placing(plane)
+    with pytest.raises(ValueError, match="another object stands there"):
+        placing.placed(discs, 1, 1.02 * wide, 150.0)
+    assert placing.placed(discs, 1, 1.1 * wide, 150.0)[1] == pytest.approx([1.1 * wide, 150.0])
+
+
+@pytest.mark.parametrize("radius", [5.0, 8.0, 11.8])
+def test_wherever_an_object_is_put_it_stands_on_the_table_in_reach(lab, robot, radius):
     tops = [lab.body.model.geom(name) for name in ("top", "right_wing", "left_wing")]
-    rim = lab.body.model.geom("red").size[0]
+    plane = for_world(robot, Readings(object_radius=radius)).plane
+    rim, within = plane.object_radius, Placing(plane).within
     for angle in np.linspace(0.0, 2 * np.pi, 73):
         for far in (0.0, 50.0, 130.0, 400.0):
             place = 0.0018 * within(far * np.cos(angle), far * np.sin(angle))

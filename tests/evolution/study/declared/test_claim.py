@@ -199,7 +199,7 @@ def test_picture_has_every_answer_of_every_source_beside_its_means():
             Answer(
                 name,
                 (9, 9),
-                (0.6 + 0.01 * k, 0.3),
+                (1.0 - 0.01 * k, 0.0123),
                 Estimate(0.3 + 0.01 * k + shift, 0.2 + shift, 0.6 + shift),
                 0.01,
                 corrected=0.2 * (k % 2),
@@ -215,7 +215,7 @@ def test_picture_has_every_answer_of_every_source_beside_its_means():
             round(100 * answer.difference.low, 6),
             round(100 * answer.difference.high, 6),
             answer.corrected < 0.05,
-            f"{100 * answer.means[0]:.2g} : {100 * answer.means[1]:.2g} %",
+            f"{100 - names.index(answer.question)} : 1.2 %",
         )
         for found in sources.values()
         for answer in found
