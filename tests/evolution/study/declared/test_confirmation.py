@@ -304,15 +304,11 @@ def test_picture_shows_every_run_mean_and_published_value(spread):
         np.testing.assert_allclose(np.concatenate(drawn[0::4]), np.concatenate(every))
         np.testing.assert_allclose([each[0] for each in drawn[2::4]], [each.mean() for each in every])
         rows = [(row, condition) for row in range(len(own)) for condition in Condition]
-        for (row, condition), interval, mean in zip(rows, drawn[1::4], drawn[2::4], strict=True):
-            assert interval[0] <= mean[0] <= interval[1]
-            offset = -0.2 if condition is Condition.WITH_INDICATE else 0.2
-            heights = {
-                float(y)
-                for line in axes.lines[4 * rows.index((row, condition)) :][1:3]
-                for y in line.get_ydata()
-            }
-            assert heights == pytest.approx({row + offset})
+        for (row, condition), interval, mean in zip(rows, axes.lines[1::4], axes.lines[2::4], strict=True):
+            (low, high), (value,) = interval.get_xdata(), mean.get_xdata()
+            assert low <= value <= high
+            height = row + (-0.2 if condition is Condition.WITH_INDICATE else 0.2)
+            assert [*interval.get_ydata(), *mean.get_ydata()] == pytest.approx([height] * 3)
         published = [scale * outcome.published(condition) for _ in own for condition in Condition]
         np.testing.assert_allclose([each[0] for each in drawn[3::4]], published)
     labels = [label.get_text().split(" (")[0] for label in figure.axes[0].get_yticklabels()]
