@@ -23,7 +23,7 @@ TURN_SETS = {"degrees": (2.9, 4.6, 34.4), "radians": (degrees(0.05), degrees(0.0
 class Readings:
     """One way to understand the paper. A run stores the whole record."""
 
-    mutation_probability: float = 0.4
+    mutation_probability: float = 0.04
     """"with a probability of 0.4". Per gene; 0.04 would make one mutation in 25 genes."""
 
     mutation_sd: float = 0.1
@@ -34,7 +34,7 @@ class Readings:
     """"fitness-proportional": parents are drawn in proportion to their fitness, to its cube, to its excess
     over the best genotype that is no candidate, or to their rank, from 2 for the best to 0 for the last."""
 
-    ties: Literal["elders", "children"] = "elders"
+    ties: Literal["elders", "children"] = "children"
     """Not said: of equally fit genotypes those copied on unchanged rank before their children, or after
     them. If before, three elites at a fitness that all good genotypes reach are never replaced."""
 
@@ -45,10 +45,10 @@ class Readings:
     bias_ranges: Literal["symmetric", "negative"] = "symmetric"
     """"[-4, -4]" and "[-5, -5]", both empty: [-4, 4] and [-5, 5]; or beta_I in [-4, -2]."""
 
-    tau_exponent_max: float = 2.0
+    tau_exponent_max: float = 1.0
     """"10^2.0", of which the paper says "about 4 %" of a trial; 1.0 and 0.0 are nearer to that."""
 
-    object_radius: float = 5.0
+    object_radius: float = 8.0
     """Only in Fig. 1b. [cm]; at most 11.8: a straight S2 that touches a larger disc is never on target."""
 
     sector_half_width: float = 10.0
@@ -57,20 +57,20 @@ class Readings:
     start_areas: Literal["between", "bounds"] = "between"
     """Only in Fig. 1b. S1 starts midway between neighbouring sectors, or at its bounds."""
 
-    start_half_width: float = 4.0
+    start_half_width: float = 8.0
     """Only in Fig. 1b. [deg]; half the width of the start areas between the sectors. From 5 on, an object at
     the edge of the default sectors can be in view at the start."""
 
     sector_centres: tuple[float, float, float] = (30.0, 90.0, 150.0)
     """Only in Fig. 1b. [deg]; bearing of the middle of the blue, green and red sector."""
 
-    bound_vision: Literal["at", "near"] = "at"
+    bound_vision: Literal["at", "near"] = "near"
     """White "when S1 reaches the bound": at the bound only, or within 15 degrees of it."""
 
     object_vision: Literal["centre", "any_part"] = "centre"
     """"falls within the sector": the disc's centre does, or any part of the disc."""
 
-    camera_origin: Literal["J1", "end"] = "J1"
+    camera_origin: Literal["J1", "end"] = "end"
     """"the camera and S1 move together": bearings of the discs are as seen from J1, or from the end of S1,
     where "in view" then is judged from too. From there an object is seen only when S1 nearly points at it."""
 
@@ -83,7 +83,7 @@ class Readings:
     run_counting: Literal["uninterrupted", "cumulative"] = "uninterrupted"
     """"uninterrupted interval" (III), "number of time steps" (VI): a bad step resets the count, or not."""
 
-    indicate_angle: Literal["narrow", "wide"] = "narrow"
+    indicate_angle: Literal["narrow", "wide"] = "wide"
     """30 (III) or 4.6 degrees (VI): how near INDICATE's good steps must be. F1 keeps 4.6."""
 
     f3_time: Literal["end", "best"] = "end"
@@ -92,7 +92,7 @@ class Readings:
     ignore_stops: Literal["early", "never"] = "early"
     """The early end is listed for INDICATE, TOUCH and MOVE only: IGNORE ends at 100 too, or runs on."""
 
-    starts_shared: Literal["generation", "genotype"] = "generation"
+    starts_shared: Literal["generation", "genotype"] = "genotype"
     """Not said: all genotypes of a generation meet the same starts, or each its own."""
 
     collision_penalty: Literal["ratio", "whole"] = "ratio"
@@ -262,4 +262,4 @@ compared with, and what a config file means that does not name a reading."""
 
 # `printed` takes the paper at its word wherever the word can run. The plain readings do so already but
 # in one place: section VI lists an early end for INDICATE, TOUCH and MOVE, not for IGNORE.
-PRESETS: Final = {"default": Readings(), "printed": replace(PLAIN, ignore_stops="never")}
+PRESETS: Final = {"default": Readings(), "plain": PLAIN, "printed": replace(PLAIN, ignore_stops="never")}

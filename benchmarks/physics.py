@@ -1,6 +1,6 @@
 """The robot's motors in trials of an agent: tracking, effort, time; without objects in the way, and with.
 
-python -m benchmarks.physics [--still] [CHAMPION.npz]
+python -m benchmarks.physics [--still] [AGENT]
 
 With --still the robot's head is held.
 """
@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from arm2d import Condition, Readings, Trials, draw_trials
+from arm2d import Trials, draw_trials
+from evolution.runs.sources import Agent, find_agent
 from models.robots import get_robot
 from mujoco_port.acting.exertion import Exertion, exertion, head_exertion, tracking_errors
 from mujoco_port.acting.eyes import geometric_eyes
@@ -23,14 +23,13 @@ from mujoco_port.acting.lab import Lab, instruction_of
 from mujoco_port.acting.open_loop import OpenLoop, planar_angles
 from mujoco_port.acting.rollout import PhysicalRecord, carry_out
 
-CHAMPION = Path(__file__).parents[1] / "evolution" / "champions" / "best-generaliser.npz"
 OUT_OF_THE_WAY_M = np.array([[0.40, 0.38], [-0.50, 0.38], [-0.62, 0.38]])  # corners of the table
 
 
-def without_objects(lab: Lab, genotype: np.ndarray, trial: Trials) -> PhysicalRecord:
+def without_objects(lab: Lab, agent: Agent, trial: Trials) -> PhysicalRecord:
     """All 250 steps of a trial, the objects being where the hand does not come."""
-    instruction, readings = instruction_of(trial), Readings()
-    angles = planar_angles(genotype, instruction, float(trial.alpha[0]), trial.discs[0], readings)
+    instruction = instruction_of(trial)
+    angles = planar_angles(agent.genotype, instruction, float(trial.alpha[0]), trial.discs[0], agent.readings)
     places = OUT_OF_THE_WAY_M / lab.body.robot.plane.scale
     return carry_out(
         lab.body,
@@ -46,14 +45,13 @@ def without_objects(lab: Lab, genotype: np.ndarray, trial: Trials) -> PhysicalRe
 def main() -> None:
     """Print a table."""
     still = "--still" in sys.argv[1:]
-    paths = [each for each in sys.argv[1:] if each != "--still"] or [CHAMPION]
-    with np.load(paths[0], allow_pickle=False) as stored:
-        genotype = stored["genotypes"][0]
-    robot, readings = get_robot("icub"), Readings()
-    lab = Lab(robot.with_head_held if still else robot)
+    names = [each for each in sys.argv[1:] if each != "--still"] or ["best-generaliser"]
+    agent, robot = find_agent(names[0], generation=None, rank=0, condition=None), get_robot("icub")
+    readings = agent.readings
+    lab = Lab(robot.with_head_held if still else robot, readings)
     robot = lab.body.robot
-    trials = draw_trials(Condition.WITH_INDICATE.instructions, 1, readings, np.random.default_rng(3))
-    without_objects(lab, genotype, trials[0])  # compiled and warm
+    trials = draw_trials(agent.condition.instructions, 1, readings, np.random.default_rng(3))
+    without_objects(lab, agent, trials[0])  # compiled and warm
 
     table = Table(title=f"{robot.title}, {len(trials)} trials: nine instructions, both start areas")
     for heading in ("", "error [mm] median", "p99", "max", "deepest contact [mm]", "CPU [s] for 25 s"):
@@ -65,9 +63,9 @@ def main() -> None:
         for t in range(len(trials)):
             alone = name == "without objects"
             records.append(
-                without_objects(lab, genotype, trials[t])
+                without_objects(lab, agent, trials[t])
                 if alone
-                else lab.open_loop(genotype, trials[t], readings)[0]
+                else lab.open_loop(agent.genotype, trials[t], readings)[0]
             )
         spent = (time.process_time() - began) / sum(record.steps for record in records) * 250
         errors = 1e3 * np.concatenate([tracking_errors(record, lab.kinematics) for record in records])

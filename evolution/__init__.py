@@ -1,7 +1,7 @@
 """The search for controllers, and the reading of its results.
 
     import evolution
-    run = evolution.evolve("run", evolution.RunConfig("with-indicate", seed=13))
+    run = evolution.evolve("run", evolution.RunConfig("with-indicate", seed=1))
     run.history.best                                # [G], also mean, median, worst
     champion = run.champions[0]
     champion.evaluate()                             # on all nine instructions, two of which it never met

@@ -1,6 +1,6 @@
 """What a user of the library holds: a run that tells how it went, and agents that can be tried.
 
-    run = evolution.evolve("run", evolution.RunConfig("with-indicate", seed=13))
+    run = evolution.evolve("run", evolution.RunConfig("with-indicate", seed=1))
     run.history.best                             [G], the highest fitness of each generation
     run.genotypes(100)                           [P, G], all of one generation, bred again
     run.champions[0].evaluate()                  all nine instructions, 80 trials each

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition
+from arm2d.readings import PLAIN
 from evolution.agents.subtasks import AgentClass, categories, classify, count_table
 from evolution.experiments.experiment import Experiment
 from evolution.figures.generalisers import generalisers_figure
@@ -108,7 +109,7 @@ def _condition(condition: Condition, arrays: dict[str, NDArray]) -> ConditionRes
     return ConditionResults(
         condition=condition,
         runs=tuple(
-            RunFolder(RESULTS / f"seed-{seed:04d}", RunConfig(condition, int(seed)))
+            RunFolder(RESULTS / f"seed-{seed:04d}", RunConfig(condition, int(seed), readings=PLAIN))
             for seed in arrays["seeds"]
         ),
         seeds=arrays["seeds"],

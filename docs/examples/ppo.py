@@ -31,6 +31,8 @@ from evolution.figures.learning import learning_figure
 from evolution.figures.page import save_figure
 from evolution.results.learning import TRIALS, LearningCurve, read_curves, write_curves
 
+# The paper's numbers as printed: the world in which docs/how-to/reinforcement-learning.md compares.
+READINGS = arm2d.Readings.preset("plain")
 N_WORLDS = 128
 # The leaky memory: averages of the first 12 inputs (touch, camera, elbow) over so long [s].
 N_SENSED, SPANS = 12, (1.0, 5.0)
@@ -93,7 +95,9 @@ class Worlds(VecEnv):
     def __init__(self, training):
         how = {"condition": training.condition, "reward": training.reward}
         same_step = AutoresetMode.SAME_STEP
-        self.worlds = gymnasium.make_vec(NAME, num_envs=N_WORLDS, autoreset_mode=same_step, **how)
+        self.worlds = gymnasium.make_vec(
+            NAME, num_envs=N_WORLDS, autoreset_mode=same_step, readings=READINGS, **how
+        )
         self.sight = Sight(training, N_WORLDS)
         shown = Box(0.0, 1.0, (18 + self.sight.averages[0].size,), np.float32)
         super().__init__(N_WORLDS, shown, self.worlds.single_action_space)
@@ -150,7 +154,7 @@ def successes(model, training, seed):
     """Of 80 fresh trials of each of the nine instructions, how many succeed, [9]; the likeliest actions."""
     asked = arm2d.Condition(training.condition).instructions
     rng = np.random.default_rng(seed)
-    world = arm2d.VectorWorld(arm2d.draw_trials(asked, TRIALS // 2, arm2d.Readings(), rng))
+    world = arm2d.VectorWorld(arm2d.draw_trials(asked, TRIALS // 2, READINGS, rng))
     sight, state, began = Sight(training, len(world)), None, np.ones(len(world), bool)
     shown = sight.first(world.inputs, began)
     while not world.ended.all():

@@ -61,7 +61,8 @@ class FromPreset:
     """Options of commands that evolve in a world of the user's choice."""
 
     preset: str = "default"
-    """Readings to start from: default, or printed (the paper at its word); single ones can be set below."""
+    """Readings to start from: default (nearest to the paper), plain (its numbers) or printed (the paper at
+    its word); single ones can be set below."""
 
     readings: UncheckedReadings = field(default_factory=UncheckedReadings)
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from arm2d import Condition, draw_trials, run_trials
+from arm2d import Condition, Readings, draw_trials, run_trials
 from arm2d.readings import PLAIN
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_history
@@ -22,7 +22,7 @@ from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 
 STORED = Path(__file__).with_name("golden.json")
-EVOLVED = Path(__file__).parents[2] / "evolved.npz"
+EVOLVED = Path(__file__).parents[2] / "evolved-plain.npz"
 # Every alternative of the ledger; tests/test_ledger.py holds the ledger against it.
 ALTERNATIVES = {
     "mutation_probability": [0.04],
@@ -73,7 +73,13 @@ def _alternatives():
             yield f"{name} {value}", RunConfig(condition, 3, SHORT, readings)
 
 
-RUNS = {**BASE, "plain": RunConfig(Condition.WITH_INDICATE, 3, SHORT, PLAIN), **dict(_alternatives())}
+DEFAULT = {f"default, {c}": RunConfig(c, 4, SHORT, Readings()) for c in Condition}
+RUNS = {
+    **BASE,
+    "plain": RunConfig(Condition.WITH_INDICATE, 3, SHORT, PLAIN),
+    **dict(_alternatives()),
+    **DEFAULT,
+}
 
 
 def fingerprint(config):

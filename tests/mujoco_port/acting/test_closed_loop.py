@@ -14,6 +14,7 @@ from mujoco_port.acting.camera import CameraEyes
 from mujoco_port.acting.closed_loop import ClosedLoop, felt
 from mujoco_port.acting.contacts import LEFT_SIDE, RIGHT_SIDE
 from mujoco_port.acting.eyes import geometric_eyes
+from mujoco_port.acting.lab import Lab
 from mujoco_port.film.physical_port import start_of
 from mujoco_port.reach.workspace import beta_of, hand_headings, hand_targets, on_table
 
@@ -142,8 +143,9 @@ def test_agents_order_takes_effect_one_control_step_after_what_it_answers_to(lab
     np.testing.assert_allclose(physical.orders[1 : k + 2, 0], record.alpha[: k + 1], atol=1e-9)
 
 
-def test_shipped_generaliser_moves_red_in_the_robots_body_with_either_kind_of_eyes(lab):
+def test_shipped_generaliser_moves_red_in_the_robots_body_with_either_kind_of_eyes(robot):
     champion = find_agent("best-generaliser")
+    lab = Lab(robot, champion.readings)
     record = _trial("move red", champion.genotype, champion.readings)
     assert record.success
     with CameraEyes(lab.body, champion.readings) as eyes:

@@ -11,7 +11,7 @@ from mujoco_port.acting.exertion import tracking_errors
 from mujoco_port.acting.lab import Lab
 from mujoco_port.acting.open_loop import OpenLoop
 from mujoco_port.film.physical_port import start_of
-from mujoco_port.reach.workspace import hand_headings, hand_targets
+from mujoco_port.reach.workspace import for_world, hand_headings, hand_targets
 
 ALPHA = 120.0  # where the straight arm of these tests points
 
@@ -68,12 +68,12 @@ def test_hand_that_is_pressed_in_by_a_depth_reads_this_depth(lab, reached, press
     assert skin.read()[1] == 0.0
 
 
-def pushed_inwards_and_outwards(robot):
+def pushed_inwards_and_outwards(robot, readings):
     """How far [m] from its distance an object comes in and goes out while pushed by 60 degrees."""
-    lab, sweep = Lab(robot), [ALPHA + 10.0, *np.arange(ALPHA + 10.0, 45.0, -2.9)]
+    lab, sweep = Lab(robot, readings), [ALPHA + 10.0, *np.arange(ALPHA + 10.0, 45.0, -2.9)]
     discs = np.array([[220.0, 215.0], [-39.0, 145.0], [-260.0, 100.0]])
     orders = OpenLoop(iter([(alpha, 0.0) for alpha in sweep]))
-    record, _ = lab.carry_out(orders, Instruction.parse("move green"), discs, Readings(), to_the_end=True)
+    record, _ = lab.carry_out(orders, Instruction.parse("move green"), discs, readings, to_the_end=True)
     x, y = record.objects[:, 1, :2].T
     bearing = np.degrees(np.arctan2(y, x))
     assert bearing[0] - bearing[-1] > 55.0
@@ -81,17 +81,19 @@ def pushed_inwards_and_outwards(robot):
     return away.min(), away.max()
 
 
-def test_pushed_object_stays_with_the_hand(robot):
-    """It ends 12 mm further out; with a hand along its bearing that would be 16, to the left of it 19."""
-    inwards, outwards = pushed_inwards_and_outwards(robot)
+@pytest.mark.parametrize("radius", [5.0, 8.0])
+def test_pushed_object_stays_with_the_hand(robot, radius):
+    """One of 17 mm ends 12 mm further out; of a hand along its bearing it would be 16, to its left 19."""
+    readings = Readings(object_radius=radius)
+    inwards, outwards = pushed_inwards_and_outwards(robot, readings)
     assert inwards > -1e-3
-    assert outwards < 14e-3
+    assert outwards < 0.82 * for_world(robot, readings).plane.object_radius
 
 
 def test_pushed_object_does_not_roll_along_a_hand_that_is_not_square_to_its_way(robot):
     """With fingers 24 degrees to the right it came in by 2 mm; without resistance to rolling by 14."""
     askew = replace(robot, plane=replace(robot.plane, heading_lead=np.radians(24.0)))
-    inwards, outwards = pushed_inwards_and_outwards(askew)
+    inwards, outwards = pushed_inwards_and_outwards(askew, Readings(object_radius=5.0))
     assert inwards > -5e-3
     assert outwards < 5e-3
 

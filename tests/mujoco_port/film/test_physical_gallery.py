@@ -10,6 +10,7 @@ from evolution.agents.recording import record_instruction
 from evolution.commands.port import headline
 from evolution.runs.sources import find_agent
 from evolution.search.randomness import Purpose, generator
+from mujoco_port.acting.lab import Lab
 from mujoco_port.film import gallery
 from mujoco_port.film.gallery import CELL_WIDTH, CLOCK, RATE_BAR, STRIP, VIEW_HEIGHT, cell_pictures, strip
 from mujoco_port.film.physical_port import port_physical_gallery, start_of
@@ -51,7 +52,8 @@ def last_clock(take, stage):
     return cell[4 : STRIP - 4, CELL_WIDTH - CLOCK : -4].astype(int)
 
 
-def test_a_cell_ends_with_the_verdicts_of_both_worlds(agent, record, stage, lab):
+def test_a_cell_ends_with_the_verdicts_of_both_worlds(agent, record, stage, robot):
+    lab = Lab(robot, record.readings)
     physical, verdict = lab.open_loop(agent.genotype, start_of(record), record.readings)
     take = physical_take(record, physical, verdict)
     both = last_clock(take, stage)

@@ -200,7 +200,7 @@ def test_the_loop_is_closed_and_opened_between_trials(session):
 
 
 def test_where_the_robot_cannot_reach_the_trial_breaks_off_with_a_reason(robot, actor, draw_start):
-    far = Lab(replace(robot, plane=replace(robot.plane, scale=0.0026)))
+    far = Lab(replace(robot, plane=replace(robot.plane, scale=0.0028)))
     session = Session(far, actor, draw_start)
     session.do(Say(words("touch red")))
     to_the_end(session)
