@@ -2,7 +2,7 @@
 
 VENV ?= .venv
 DEMO ?= demo
-DEMO_SEED ?= 13
+DEMO_SEED ?= 1
 FAULTS ?= 200
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
@@ -19,7 +19,7 @@ $(READY): pyproject.toml constraints.txt scripts/setup.sh
 
 setup: $(READY)  ## the virtual environment, with what the system lacks
 
-demo: $(READY)  ## evolve one run, evaluate its champion and show it on the iCub
+demo: $(READY)  ## evolve a run of each condition, evaluate the champions and show them on the iCub
 	@PATH="$(abspath $(BIN)):$$PATH" sh scripts/demo.sh $(DEMO) $(DEMO_SEED)
 
 reproduce: $(READY)  ## the whole paper, from random genotypes to the report in runs/paper

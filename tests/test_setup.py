@@ -77,12 +77,12 @@ def test_the_page_on_installing_has_a_row_for_every_extra():
 
 @pytest.mark.slow
 def test_the_demo_goes_on_to_the_figures_where_nothing_can_be_drawn(tmp_path):
-    """With an evolution of a few generations in the place of the long one."""
+    """With evolutions of a few generations in the place of the long ones."""
     commands = tmp_path / "bin"
     commands.mkdir()
-    short = "--generations 30 --population 20 --elites 2 --parents 10"
+    short = "[settings]\\ngenerations = 30\\npopulation = 20\\nelites = 2\\nparents = 10\\n"
     (commands / "wordarm").write_text(
-        f'#!/bin/sh\ncase $1 in evolve) set -- "$@" {short} ;; esac\n'
+        f"#!/bin/sh\ncase $1 in experiment) printf '{short}' >> \"$2\" ;; esac\n"
         f'exec {sys.executable} -P -m wordarm "$@"\n'
     )
     (commands / "python").write_text(f'#!/bin/sh\nexec {sys.executable} "$@"\n')
@@ -95,9 +95,10 @@ def test_the_demo_goes_on_to_the_figures_where_nothing_can_be_drawn(tmp_path):
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert done.stderr.startswith("wordarm: the robot cannot be drawn here: ")
-    made = sorted(each.name for each in (tmp_path / "demo").iterdir() if each.is_file())
-    assert "fitness.png" in made
-    assert not any(name.endswith(".mp4") for name in made)
+    for condition in ("with-indicate", "with-ignore"):
+        assert (tmp_path / "demo" / condition / "fitness.png").is_file()
+        assert f"demo/{condition}/champion-heat-map.png" in done.stdout
+    assert not list((tmp_path / "demo").glob("*.mp4"))
     assert done.stdout.splitlines()[-2].startswith("There are no films, since the robot cannot be drawn here")
 
 
