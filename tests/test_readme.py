@@ -38,7 +38,7 @@ def test_snippet_runs_as_printed(tmp_path):
         text=True,
         check=True,
     )
-    assert done.stdout.startswith("1.42")  # as the comment beside it says
+    assert done.stdout.startswith("0.698")  # as the comment beside it says
     assert (tmp_path / "move-green.mp4").stat().st_size > 10_000
 
 
@@ -108,7 +108,8 @@ def test_make_targets_exist(page):
 
 def test_readme_speaks_of_the_run_that_the_demo_makes():
     (seed,) = re.findall(r"^DEMO_SEED \?= (\d+)$", MAKEFILE, re.MULTILINE)
-    assert f"(With-Indicate, seed {seed})" in README
+    assert f"With-Indicate (seed {seed})" in README
+    assert f"With-Ignore (seed {seed})" in README
 
 
 def test_modules_named_in_the_docs_exist():

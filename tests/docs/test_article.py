@@ -6,8 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from arm2d import Readings
+from arm2d import Condition, Readings
+from arm2d.readings import PLAIN
+from evolution.results.published import AGENTS, TABLE_II
 
+CONDITIONS = ("with-indicate", "with-ignore")
+WORLDS = ("printed", "winner")
 DOCS = Path(__file__).parents[2] / "docs"
 ARTICLE = " ".join((DOCS / "article.md").read_text().split())
 READINGS = DOCS / "results" / "readings"
@@ -20,13 +24,24 @@ def rows(path):
 
 
 @pytest.fixture(scope="module")
-def finalists():
-    return {(row["variant"], row["condition"]): row for row in rows(READINGS / "finalists-variants.csv")}
+def decided():
+    """Rows of the decision's table by world and condition."""
+    return {(row["world"], row["condition"]): row for row in rows(READINGS / "decision-worlds.csv")}
 
 
 @pytest.fixture(scope="module")
-def compared():
-    return {(row["condition"], row["number"]): row for row in rows(READINGS / "favourite" / "comparison.csv")}
+def runs():
+    """Its runs by world and condition."""
+    found = {(world, c): [] for world in WORLDS for c in CONDITIONS}
+    for row in rows(READINGS / "decision.csv"):
+        world = "printed" if row["mutation_probability"] == "0.4" else "winner"
+        found[world, row["condition"]].append(row)
+    assert {len(own) for own in found.values()} == {30}
+    return found
+
+
+def of_both(table, world, column):
+    return [table[world, c][column] for c in CONDITIONS]
 
 
 def percent(share):
@@ -34,89 +49,155 @@ def percent(share):
     return f"{share:.0f} %" if share >= 9.5 else f"{share:.1f} %"
 
 
-def test_runs_that_reach_the_largest_fitness(finalists):
-    printed, smaller = (
-        {c: finalists[v, c] for c in ("with-indicate", "with-ignore")}
-        for v in ("default", "mutation-sd-0.03")
-    )
-    assert all(row["runs"] == "20" for row in (*printed.values(), *smaller.values()))
-    p, s = ({c: int(row["runs at 18/7"]) for c, row in of.items()} for of in (printed, smaller))
-    assert f"With-Indicate {p['with-indicate']} of 20, With-Ignore {p['with-ignore']} of 20" in ARTICLE
-    assert f"| {s['with-indicate']} of 20, {s['with-ignore']} of 20 |" in ARTICLE
+def test_runs_that_reach_the_largest_fitness(decided):
+    printed, ours = (of_both(decided, world, "at 18/7") for world in WORLDS)
     assert (
-        f"{sum(p.values())} of 40 runs do. With mutations a third as large {sum(s.values())} of 40 do"
+        "With-Indicate {} of 30, With-Ignore {} of 30 | {} of 30, {} of 30 |".format(*printed, *ours)
         in ARTICLE
     )
+    assert "{} of 30 With-Indicate and {} of 30 With-Ignore runs learn the seven".format(*printed) in ARTICLE
+    assert "{} and {} of 30 do".format(*ours) in ARTICLE
+    page = " ".join((DOCS / "readings.md").read_text().split())
+    assert "{} of 30 With-Indicate and {} of 30 With-Ignore runs end".format(*ours) in page
+    statistics = (DOCS / "statistics.md").read_text()
+    assert "{}, {} against {}, {} of 30 runs".format(*ours, *printed) in statistics
 
 
-def test_late_agents_that_master_the_seven(finalists):
-    for variant in ("default", "mutation-sd-0.03"):
-        shares = [
-            percent(finalists[variant, c]["sub-task I, category 10"])
-            for c in ("with-indicate", "with-ignore")
-        ]
-        assert f"| {shares[0]}, {shares[1]} |" in ARTICLE
+def test_late_agents_that_master_the_seven(decided):
+    printed, ours = (
+        ", ".join(percent(each) for each in of_both(decided, world, "category 10 of I")) for world in WORLDS
+    )
+    assert f"| {printed} | {ours} |" in ARTICLE
 
 
-def test_runs_with_agents_that_carry_out_both_held_out_instructions(finalists):
-    counts = [
-        int(finalists[v, c]["runs with fully compositional agents"])
-        for v in ("default", "mutation-sd-0.03")
-        for c in ("with-indicate", "with-ignore")
-    ]
-    assert "{} and {} of 20 runs have agents that carry out both | {} and {} of 20".format(*counts) in ARTICLE
+def test_runs_with_agents_that_carry_out_held_out_instructions(decided, runs):
+    column = "runs with fully compositional agents"
+    printed, ours = (of_both(decided, world, column) for world in WORLDS)
+    told = "{} and {} of 30 runs have agents that carry out both | {} and {} of 30"
+    assert told.format(*printed, *ours) in ARTICLE
+    assert "{} of 30 With-Indicate and {} of 30 With-Ignore runs have late agents".format(*ours) in ARTICLE
+    partial = [sum(int(r["partially compositional"]) > 0 for r in runs["winner", c]) for c in CONDITIONS]
+    assert "{} and {} runs agents that carry out one".format(*partial) in ARTICLE
+    assert "{} against {} of 30 runs,".format(*ours) in ARTICLE
 
 
-def test_agents_that_understand_move_blue(finalists):
-    indicate, ignore = (finalists["mutation-sd-0.03", c] for c in ("with-indicate", "with-ignore"))
-
-    def with_interval(row):
-        number = "sub-task II, category 10"
-        low, high = (f"{100 * float(row[f'{number} {end}']):.0f}" for end in ("low", "high"))
-        return f"{percent(row[number])} [{low}, {high}]"
-
-    assert f"{with_interval(indicate)} against {with_interval(ignore)}" in ARTICLE
-    assert percent(indicate["sub-task III, category 10"]) in ARTICLE
+def share(own, part, whole):
+    """The share of all agents of these runs, and how many there are."""
+    agents = sum(int(row[whole]) for row in own)
+    return sum(int(row[part]) for row in own) / agents, agents
 
 
-def test_table_ii(compared):
+def test_agents_that_generalise(runs):
+    full = [percent(share(runs["winner", c], "fully compositional", "agents")[0]) for c in CONDITIONS]
+    assert "{} against {} of late agents".format(*full) in ARTICLE
+    assert "{} of late With-Indicate and {} of late With-Ignore agents are fully".format(*full) in ARTICLE
+    understood = "masters that understand MOVE Blue"
+    blue = [percent(share(runs["winner", c], understood, "masters")[0]) for c in CONDITIONS]
+    assert "{} and {} understand MOVE Blue".format(*blue) in ARTICLE
+    winner = [row for row in rows(READINGS / "fresh.csv") if row["mutation_probability"] == "0.04"]
+    before = [[row for row in winner if row["condition"] == c] for c in CONDITIONS]
+    first, second = (100 * share(own, "fully compositional", "agents")[0] for own in before)
+    assert f"it was {first:.1f} and {second:.1f} %" in ARTICLE
+    first, second = (100 * share(own, understood, "masters")[0] for own in before)
+    assert f"{first:.0f} and {second:.0f} %: too few to tell" in ARTICLE
+
+
+def test_table_ii(decided):
+    lines = (DOCS / "article.md").read_text().splitlines()
     for sub_task in ("I", "II", "III", "IV"):
-        line = next(
-            part
-            for part in (DOCS / "article.md").read_text().splitlines()
-            if part.startswith(f"| {sub_task}, ")
-        )
+        line = next(part for part in lines if part.startswith(f"| {sub_task}, "))
         found = [cell.strip() for cell in line.strip("|").split("|")][1:]
-        for i, condition in enumerate(("with-indicate", "with-ignore")):
-            row = compared[condition, f"share of agents in category 10, sub-task {sub_task}"]
-            for cell, column in zip(
-                found[3 * i :], ("published", "default", "mutation-sd-0.03"), strict=False
-            ):
-                # As many digits as the table of the comparison has.
-                assert float(cell.removesuffix("%").strip()) / 100 == pytest.approx(
-                    float(row[column]), abs=5.1e-3 if "." not in cell else 5.1e-4
+        for i, condition in enumerate(CONDITIONS):
+            for cell, world in zip(found[3 * i + 1 : 3 * i + 3], WORLDS, strict=True):
+                value, low, high = (
+                    100 * float(decided[world, condition][f"category 10 of {sub_task}{end}"])
+                    for end in ("", " low", " high")
                 )
+                digits = 0 if value >= 9.5 else 1
+                assert cell == f"{value:.{digits}f} % [{low:.{digits}f}, {high:.{digits}f}]"
+            paper = (
+                100 * TABLE_II[Condition(condition)][-1, ("I", "II", "III", "IV").index(sub_task)] / AGENTS
+            )
+            assert float(found[3 * i].removesuffix("%")) == pytest.approx(paper, rel=0.07, abs=0.03)
 
 
-def test_transitions(compared):
-    def passed(condition, kind, change):
-        row = compared[condition, f"share of {kind} agents that pass the {change} transition"]
-        return float(row["mutation-sd-0.03"] or 0), int(row["mutation-sd-0.03, of"])
+def test_transitions(runs):
+    def passed(world, condition, kind, word):
+        return share(runs[world, condition], f"{kind}, pass {word} transitions", kind)
 
-    share, agents = passed("with-indicate", "partially compositional", "action")
-    assert f"With-Indicate agents {percent(share)} (of {agents:,})" in ARTICLE
-    share, agents = passed("with-indicate", "fully compositional", "action")
-    assert f"of the fully compositional {100 * share:.0f} % (of {agents})" in ARTICLE
-    assert passed("with-indicate", "non-compositional", "action")[0] == 0
     kinds = ("fully compositional", "partially compositional", "non-compositional")
-    ignore = [passed("with-ignore", kind, "action") for kind in kinds]
-    assert all(share == 0 for share, _ in ignore)
-    assert f"nobody (of {sum(agents for _, agents in ignore):,})" in ARTICLE
-    assert all(passed(c, kind, "object")[0] == 0 for c in ("with-indicate", "with-ignore") for kind in kinds)
-    printed = [
-        row["default"] for (_, number), row in compared.items() if "transition" in number and row["default"]
+    (full, n_full), (part, n_part) = (passed("winner", "with-indicate", kind, "action") for kind in kinds[:2])
+    ignore = [passed("winner", "with-ignore", kind, "action") for kind in kinds]
+    assert all(value == 0 for value, _ in ignore)
+    n_ignore = sum(n for _, n in ignore)
+    told = f"{percent(full)} of fully and {percent(part)} of partially compositional With-Indicate agents"
+    assert f"{told}, none of {n_ignore:,} With-Ignore" in ARTICLE
+    assert f"With-Indicate agents {percent(full)} (of {n_full:,}) carry out" in ARTICLE
+    assert f"of the partially compositional {percent(part)} (of {n_part:,})" in ARTICLE
+    assert f"With-Ignore nobody (of {n_ignore:,})" in ARTICLE
+    printed, n_printed = passed("printed", "with-indicate", kinds[1], "action")
+    assert sum(int(row[kinds[0]]) for row in runs["printed", "with-indicate"]) == 0
+    assert f"{percent(printed)} of {n_printed} partially compositional With-Indicate agents" in ARTICLE
+    assert f"{percent(printed)} of the {n_printed} partially" in ARTICLE
+    others = [passed("printed", "with-ignore", kind, "action") for kind in kinds]
+    assert all(value == 0 for value, _ in others)
+    assert f"none of {sum(n for _, n in others):,} With-Ignore; none fully" in ARTICLE
+    objects = [
+        sum(int(row[f"{kind}, pass object transitions"]) for own in runs.values() for row in own)
+        for kind in kinds
     ]
-    assert all(float(share) == 0 for share in printed)
+    assert objects == [0, 0, 0]
+
+
+def test_the_default_is_what_was_decided(decided):
+    """Duels and distances of the page, and the readings themselves."""
+    page = " ".join((DOCS / "readings.md").read_text().split())
+    duels = {(row["condition"], row["outcome"]): row for row in rows(READINGS / "decision-duels.csv")}
+
+    def told(condition, outcome, form):
+        row = duels[condition, outcome]
+        scale = 100 if "category" in outcome else 1
+        return form.format(*(scale * float(row[name]) for name in ("difference", "low", "high")))
+
+    assert told("with-indicate", "plateau", "{:+.2f} [{:.2f}, {:.2f}], p = 0.00001") in page
+    assert told("with-ignore", "plateau", "it is {:+.2f} [{:.2f}, {:.2f}]") in page
+    assert told("with-indicate", "category 10 of I", "{:+.0f} points [{:.0f}, {:.0f}], p = 0.00001") in page
+    assert told("with-ignore", "category 10 of I", "it is {:+.0f} [{:.0f}, {:.0f}]") in page
+    assert {float(duels["with-indicate", o]["after Holm"]) for o in ("plateau", "category 10 of I")} == {1e-5}
+    assert all(float(row["after Holm"]) < 0.01 and float(row["low"]) > 0 for row in duels.values())
+    distances = [float(decided[world, "with-ignore"]["distance"]) for world in reversed(WORLDS)]
+    assert "{:.2f} against {:.2f}, both conditions".format(*distances) in page
+    winner = next(row for row in rows(READINGS / "decision.csv") if row["mutation_probability"] != "0.4")
+    names = {field.name for field in fields(Readings)}
+    stored = {name: value for name, value in winner.items() if name in names}
+    default = {name: value for name, value in Readings().to_mapping().items()}
+    for name, value in stored.items():
+        if isinstance(default[name], (int, float)):
+            assert float(value) == default[name], name
+        elif isinstance(default[name], str):
+            assert value == default[name], name
+    said = page[page.index("**What it is:**") :].split("everything else")[0]
+    differing = {name for name in names if getattr(Readings(), name) != getattr(PLAIN, name)}
+    assert {name for name in names if f"`{name}`" in said} == differing
+
+
+def test_what_fresh_seeds_are_said_to_show():
+    """The page's table of worlds, row by row."""
+    lines = (DOCS / "readings.md").read_text().splitlines()
+    table = {(row["world"], row["condition"]): row for row in rows(READINGS / "fresh-worlds.csv")}
+    called = {"a": "A", "b": "B", "smallest-departure": "smallest departure", "default": "plain"}
+    for world in {world for world, _ in table}:
+        start = f"| {called.get(world, world)} "
+        line = next(each for each in lines if each.startswith(start) and "distance" not in each)
+        cells = [cell.strip() for cell in line.strip("|").split("|")][1:]
+        own = [table[world, c] for c in CONDITIONS]
+        assert cells[0] == f"{own[0]['at 18/7']}, {own[1]['at 18/7']}"
+        for cell, sub_task in zip(cells[1:5], ("I", "II", "III", "IV"), strict=True):
+            values = [100 * float(row[f"category 10 of {sub_task}"]) for row in own]
+            assert [float(each) for each in cell.split(", ")] == pytest.approx(values, abs=0.5, rel=0.05)
+        column = "runs with fully compositional agents"
+        assert cells[5] == f"{own[0][column]}, {own[1][column]}"
+        assert float(cells[6]) == pytest.approx(float(own[0]["distance"]), abs=0.0051)
 
 
 def test_worlds_drawn_at_random():
@@ -253,26 +334,18 @@ def test_newest_first_reaches_more(effects):
     assert f"{newest:.1f} against {elders:.1f} % With-Ignore" in page
 
 
-def test_the_first_table_of_the_readme_says_what_the_tables_say(finalists, compared):
+def test_the_first_table_of_the_readme_says_what_the_tables_say(decided):
     readme = (DOCS.parent / "README.md").read_text()
-    conditions = ("with-indicate", "with-ignore")
 
-    def ours(number, told):
-        pairs = [[told(finalists[v, c][number]) for c in conditions] for v in ("default", "mutation-sd-0.03")]
-        return [", ".join(pair) for pair in pairs]
+    def line(told, column, form=str):
+        printed, ours = (", ".join(form(each) for each in of_both(decided, w, column)) for w in WORLDS)
+        return f"| {told} | {printed}{{}} | {ours}{{}} |"
 
-    paper = [int(compared[c, "runs that end at 18/7"]["published"]) for c in conditions]
-    first, second = ours("runs at 18/7", str)
-    assert f"| {paper[0]}, {paper[1]} of 10 | {first} of 20 | {second} of 20 |" in readme
-    paper = [
-        percent(compared[c, "share of agents in category 10, sub-task I"]["published"]) for c in conditions
-    ]
-    first, second = ours("sub-task I, category 10", percent)
-    table = f"| {paper[0]}, {paper[1]} | {first} | {second} |"
-    assert table.replace(" %, ", ", ") in readme
-    first, second = ours("runs with fully compositional agents", str)
-    paper = compared["with-indicate", "runs with fully compositional agents"]["published"]
-    assert f"| {paper} of 10, not given | {first} of 20 | {second} of 20 |" in readme
+    assert line("10, 10 of 10", "at 18/7").format(" of 30", " of 30") in readme
+    mastered = line("60, 66 %", "category 10 of I", lambda share: percent(share).removesuffix(" %"))
+    assert mastered.format(" %", " %") in readme
+    column = "runs with fully compositional agents"
+    assert line("6 of 10, not given", column).format(" of 30", " of 30") in readme
 
 
 def test_entries_of_the_ledger():
