@@ -59,7 +59,7 @@ class Readings:
 
     start_half_width: float = 8.0
     """Only in Fig. 1b. [deg]; half the width of the start areas between the sectors. From 5 on, an object at
-    the edge of the default sectors can be in view at the start."""
+    the edge of the default sectors can be in view at the start, if the camera sits at J1."""
 
     sector_centres: tuple[float, float, float] = (30.0, 90.0, 150.0)
     """Only in Fig. 1b. [deg]; bearing of the middle of the blue, green and red sector."""
@@ -118,7 +118,7 @@ class Readings:
 
     @classmethod
     def preset(cls, name: str) -> Readings:
-        """The readings called `name`: `default` or `printed`."""
+        """The readings called `name`: `default`, `plain` or `printed`."""
         if name not in PRESETS:
             raise ValueError(f"unknown preset of readings {name!r}; there are {', '.join(PRESETS)}")
         return PRESETS[name]

@@ -1,6 +1,6 @@
 """The same trials in JAX, compiled by XLA for one core: a peer that the kernel is measured against.
 
-Default readings and float64. All trials of all genotypes are arrays [P, T] that advance together in one
+The plain readings and float64. All trials of all genotypes are arrays [P, T] that advance together in one
 `while_loop`, masks doing the rest, until every trial has ended. Needs jax (`pip install jax`), which
 nothing else in the project does. Divisions, exponentials and arc tangents are XLA's own: a chaotic
 trial may end otherwise than the kernel's, and the benchmark says how many do.

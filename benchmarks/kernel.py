@@ -25,6 +25,7 @@ from rich.console import Console
 from rich.table import Table
 
 from arm2d import Condition, Readings, Trials, TrialScores, draw_trials, run_trials
+from arm2d.readings import PLAIN
 from benchmarks import numpy_peer
 from evolution.search.algorithm import breed, choose_parents, initial_genotypes, mean_in_order
 from evolution.search.settings import Settings
@@ -96,7 +97,7 @@ def bind_to_one_core() -> None:
 def main() -> None:
     """Print a table."""
     bind_to_one_core()
-    readings, console = Readings(), Console(width=None if sys.stdout.isatty() else 110)
+    readings, console = PLAIN, Console(width=None if sys.stdout.isatty() else 110)
     table = Table(title=f"one generation on {platform.processor() or platform.machine()}, one core")
     for heading in (
         "population",

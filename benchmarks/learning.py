@@ -20,7 +20,8 @@ import tyro
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings
-from evolution.experiments.variants import variant_name
+from arm2d.readings import PLAIN
+from evolution.experiments.variants import value_names
 from evolution.results.learning import LearningCurve, write_curves
 from evolution.runs.run import Watcher, evolve
 from evolution.runs.sources import find_agent
@@ -73,9 +74,9 @@ def evolution_curve(config: RunConfig, folder: Path, tests: int) -> LearningCurv
 
 
 def learner_of(config: RunConfig) -> str:
-    """What evolution is called under these readings."""
-    name = variant_name(config.readings)
-    return "evolution" if name == "default" else f"evolution, {name}"
+    """What evolution is called under these readings, by what differs from the plain ones."""
+    name = "+".join(value_names(config.readings, PLAIN))
+    return f"evolution, {name}" if name else "evolution"
 
 
 def generations_tested(generations: int, tests: int) -> NDArray[np.int64]:
@@ -89,7 +90,7 @@ def main(
     generations: int = 6000,
     tests: int = 60,
     condition: Condition = Condition.WITH_INDICATE,
-    readings: Readings = Readings(),  # noqa: B008 - frozen
+    readings: Readings = PLAIN,
 ) -> None:
     """Evolve with each seed and write the curves.
 
@@ -99,7 +100,7 @@ def main(
         generations: Of each run.
         tests: Of each run.
         condition: Which third action there is.
-        readings: How the paper is understood.
+        readings: How the paper is understood; without, plainly, as in the example of PPO.
     """
     curves = []
     with tempfile.TemporaryDirectory() as folder:

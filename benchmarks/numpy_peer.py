@@ -1,6 +1,6 @@
 """The same trials in numpy, vectorised over genotypes and trials: the peer the kernel is measured against.
 
-Default readings only. Two versions share all but one line: `run_trials` computes every quantity of
+The plain readings only. Two versions share all but one line: `run_trials` computes every quantity of
 every trial at every step, masks doing the rest, as array code mostly does; `sparse=True` computes
 contact only for the discs that S2 may reach in the step, the best that numpy could be made to do here.
 """

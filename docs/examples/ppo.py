@@ -31,7 +31,7 @@ from evolution.figures.learning import learning_figure
 from evolution.figures.page import save_figure
 from evolution.results.learning import TRIALS, LearningCurve, read_curves, write_curves
 
-# The paper's numbers as printed: the world in which docs/how-to/reinforcement-learning.md compares.
+# The plain readings: the world in which docs/how-to/reinforcement-learning.md compares.
 READINGS = arm2d.Readings.preset("plain")
 N_WORLDS = 128
 # The leaky memory: averages of the first 12 inputs (touch, camera, elbow) over so long [s].

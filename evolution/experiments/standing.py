@@ -27,7 +27,7 @@ from evolution.search.settings import Settings
 LOCK_TABLE: Final = Path("/proc/locks")
 TESTS: Final = (POST_EVALUATION, TRANSITION_TEST)
 # Until parts have been tested: the time of 100 generations' tests, as a multiple of that of their
-# evolution, measured with default readings.
+# evolution, measured with the plain readings.
 TESTS_PER_EVOLUTION: Final = 2.5
 
 

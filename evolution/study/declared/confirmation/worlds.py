@@ -39,7 +39,7 @@ WORLD_A: Final = replace(
 )
 WORLD_B: Final = replace(WORLD_A, camera_origin="J1")
 SMALLEST_DEPARTURE: Final = replace(DECLARED_DEFAULT, parent_scaling="excess", ties="children")
-# Differs from the default With-Ignore only: With-Indicate no instruction is IGNORE.
+# Differs from the declared default With-Ignore only: With-Indicate no instruction is IGNORE.
 PRINTED_WORLD: Final = replace(DECLARED_DEFAULT, ignore_stops="never")
 
 RunsOfWorlds = Mapping[str, Mapping[Condition, Sequence[MeasuredRun]]]
