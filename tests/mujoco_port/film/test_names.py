@@ -4,8 +4,11 @@ from itertools import product
 
 import pytest
 
-from evolution.cli import main
+from arm2d import Instruction
+from evolution.cli import main, parse
+from evolution.runs.sources import find_agent
 from mujoco_port.film.names import film_name
+from mujoco_port.film.take import task_heard
 
 
 def test_a_plain_film_has_a_plain_name():
@@ -72,3 +75,11 @@ def test_without_an_encoder_port_says_so_and_makes_no_folder(tmp_path, capsys, m
             "wordarm: /bin/echo cannot write H.264 (it has no libx264); `wordarm doctor` says what to do\n"
         )
     assert not any(tmp_path.iterdir())
+
+
+def test_a_film_shows_the_words_that_its_agent_knows():
+    """MOVE Blue is an instruction of both conditions; the third action is not."""
+    for name, third in (("with-ignore", "ignore"), ("best-generaliser", "indicate")):
+        command = parse(["port", name, "move blue"])
+        record = command._record(find_agent(name), Instruction.parse("move blue"))
+        assert task_heard(record).third == third
