@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from arm2d import Instruction, TrialRecord, draw_trials, record_trial
+from arm2d.tasks.task import task_of
 from arm2d.trials import StartArea, area_index
 from evolution.runs.sources import Agent
 from evolution.search.randomness import Purpose, generator
@@ -30,4 +33,5 @@ def record_instruction(
         )
     rng = generator(trial_seed, Purpose.RECORDING)
     trials = draw_trials([instruction], 1, agent.readings, rng, agent.condition)
-    return record_trial(agent.genotype, trials[area_index(start_area)], agent.readings)
+    record = record_trial(agent.genotype, trials[area_index(start_area)], agent.readings)
+    return replace(record, task=task_of(agent.condition))  # films show the words that the agent knows

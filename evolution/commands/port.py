@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from tyro.conf import Positional, arg
 
 from arm2d import Instruction
-from arm2d.tasks.task import papers_condition, task_of
+from arm2d.tasks.task import papers_condition
 from evolution.commands.agent import AgentCommand
 
 if TYPE_CHECKING:
@@ -135,8 +135,7 @@ class Port(AgentCommand):
         """The trial, as the planar arm carries it out."""
         from evolution.agents.recording import record_instruction
 
-        record = record_instruction(source, instruction, self.start_area, self.trial_seed)
-        return replace(record, task=task_of(source.condition))  # so that films show the words the agent knows
+        return record_instruction(source, instruction, self.start_area, self.trial_seed)
 
     def _place(self, source: Agent, what: str) -> Path:
         """Where the video goes, its folder made; the robot is refused first if it cannot act."""

@@ -5,7 +5,8 @@ from itertools import product
 import pytest
 
 from arm2d import Instruction
-from evolution.cli import main, parse
+from evolution.agents.recording import record_instruction
+from evolution.cli import main
 from evolution.runs.sources import find_agent
 from mujoco_port.film.names import film_name
 from mujoco_port.film.take import task_heard
@@ -80,6 +81,5 @@ def test_without_an_encoder_port_says_so_and_makes_no_folder(tmp_path, capsys, m
 def test_a_film_shows_the_words_that_its_agent_knows():
     """MOVE Blue is an instruction of both conditions; the third action is not."""
     for name, third in (("with-ignore", "ignore"), ("best-generaliser", "indicate")):
-        command = parse(["port", name, "move blue"])
-        record = command._record(find_agent(name), Instruction.parse("move blue"))
+        record = record_instruction(find_agent(name), Instruction.parse("move blue"), "right", 0)
         assert task_heard(record).third == third
