@@ -27,6 +27,11 @@ def test_hand_is_low_while_s2_is_straight_and_lifted_while_it_is_bent(robot):
     assert hand_height(plane, last) == hand_height(plane, 90.0) == plane.hand_height + plane.lift
 
 
+def test_a_record_is_laid_for_the_plain_world(robot):
+    """To the bit: its rim and the radius of its objects are those of discs of 5 cm in sectors of 10 degrees."""
+    assert for_world(robot, PLAIN) == robot
+
+
 @pytest.mark.parametrize(
     "world", [{"object_radius": 8.0}, {"object_radius": 3.0}, {"sector_half_width": 5.0}]
 )
