@@ -28,7 +28,7 @@ def test_hand_is_low_while_s2_is_straight_and_lifted_while_it_is_bent(robot):
 
 
 def test_a_record_is_laid_for_the_plain_world(robot):
-    """To the bit: its rim and the radius of its objects are those of discs of 5 cm in sectors of 10 degrees."""
+    """To the bit: its rim and objects are those of discs of 5 cm in sectors of 10 degrees to either side."""
     assert for_world(robot, PLAIN) == robot
 
 
