@@ -74,7 +74,7 @@ def costs_of_a_moment(closed: bool) -> dict[str, float]:
     spent, moments = dict.fromkeys(parts, 0.0), 0
     for words in ("touch green", "move red", "indicate blue"):
         session.do(Again())
-        session.do(Say(Instruction.parse(words)))
+        session.do(Say.both(Instruction.parse(words)))
         session.do(Run(True))
         while session.running:
             times = [time.process_time()]

@@ -1,4 +1,8 @@
-"""What a viewer may ask for: one JSON object, `{"do": "say", "words": "touch green"}`."""
+"""What a viewer may ask for: one JSON object, `{"do": "say", "words": "touch green"}`.
+
+An order names what it changes, and the rest stays as it is in the session. A page that sent the rest as it
+last heard of it would take back what was ordered a moment ago.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,7 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any, Final
 
-from arm2d import Instruction, ObjectWord
+from arm2d import ActionWord, Instruction, ObjectWord
 from arm2d.trials import START_AREAS
 
 LONGEST: Final = 1000  # characters
@@ -18,9 +22,15 @@ LARGEST_SEED: Final = 2**32 - 1
 
 @dataclass(frozen=True)
 class Say:
-    """Let other words be heard."""
+    """Let other words be heard; None leaves a word as it is."""
 
-    instruction: Instruction
+    action: ActionWord | None
+    object: ObjectWord | None
+
+    @classmethod
+    def both(cls, instruction: Instruction) -> Say:
+        """Both words of an instruction."""
+        return cls(instruction.action, instruction.object)
 
 
 @dataclass(frozen=True)
@@ -34,10 +44,10 @@ class Place:
 
 @dataclass(frozen=True)
 class Reset:
-    """Stand at a fresh start, drawn in an area with a seed."""
+    """Stand at a fresh start, drawn in an area with a seed; None leaves either as it is."""
 
-    area: str
-    seed: int
+    area: str | None = None
+    seed: int | None = None
 
 
 @dataclass(frozen=True)
@@ -93,7 +103,12 @@ def _say(order: Mapping[str, Any]) -> Say:
     words = order.get("words")
     if not isinstance(words, str):
         raise ValueError('words are text, such as "touch green"')
-    return Say(Instruction.parse(words))
+    one = words.strip().upper()
+    if one in ActionWord.__members__:
+        return Say(ActionWord[one], None)
+    if one in ObjectWord.__members__:
+        return Say(None, ObjectWord[one])
+    return Say.both(Instruction.parse(words))
 
 
 def _place(order: Mapping[str, Any]) -> Place:
@@ -105,11 +120,15 @@ def _place(order: Mapping[str, Any]) -> Place:
 
 def _reset(order: Mapping[str, Any]) -> Reset:
     area, seed = order.get("area"), order.get("seed")
-    if area not in START_AREAS:
+    if area is not None and area not in START_AREAS:
         raise ValueError("an area is right or left")
-    if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed <= LARGEST_SEED:
+    if seed is not None and not _is_seed(seed):
         raise ValueError(f"a seed is a whole number from 0 to {LARGEST_SEED}")
     return Reset(area, seed)
+
+
+def _is_seed(value: object) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= LARGEST_SEED
 
 
 def _speed(order: Mapping[str, Any]) -> Speed:

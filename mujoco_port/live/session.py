@@ -1,7 +1,7 @@
 """What viewers share: one robot, one trial, one clock. It knows neither page nor socket.
 
 session = Session(lab, actor, draw_start)
-session.do(Say(Instruction.parse("touch red")))
+session.do(Say.both(Instruction.parse("touch red")))
 session.do(Run(True))
 moment = session.tick()   # what is to be seen 1/25 s later
 """
@@ -109,12 +109,20 @@ class Session:
             ValueError: If it cannot be obeyed now, in a sentence for the viewer.
         """
         match order:
-            case Say(instruction):
-                self._say(instruction)
+            case Say(action, object_):
+                heard = self._instruction
+                self._say(
+                    Instruction(
+                        heard.action if action is None else action,
+                        heard.object if object_ is None else object_,
+                    )
+                )
             case Place(object_, x, y):
                 self._place(object_, x, y)
             case Reset(area, seed):
-                self._area, self._seed, self._start = area, seed, self._draw(area, seed)
+                self._area = self._area if area is None else area
+                self._seed = self._seed if seed is None else seed
+                self._start = self._draw(self._area, self._seed)
                 self._prepare()
             case Again():
                 self._prepare()

@@ -44,7 +44,7 @@ const setInsides = insides();
 const ask = link({
   hello(greeting) {
     part("who").textContent = `${greeting.agent} on the ${greeting.robot}`;
-    words(greeting.actions, (action, object) => ask({ do: "say", words: `${action} ${object}` }));
+    words(greeting.actions, (word) => ask({ do: "say", words: word }));
     rates = greeting.traces;
     if (state) show(state);
     furnish();
@@ -150,7 +150,7 @@ hand(canvas, {
   },
 });
 
-const reset = (changed) => ask({ do: "reset", area: state.area, seed: state.seed, ...changed });
+const reset = (changed) => ask({ do: "reset", ...changed });
 part("run").addEventListener("click", () => {
   if (state.phase === "ended") ask({ do: "again" });
   ask({ do: "run", on: state.phase !== "running" || state.paused });

@@ -21,7 +21,7 @@ function add(home, name, kind = "", text = "") {
   return made;
 }
 
-/** Words to choose from; `said` is told the two that are chosen. */
+/** Words to choose from; `said` is told the one that is chosen. */
 export function words(actions, said) {
   const pills = (home, name, all) => {
     home.replaceChildren();
@@ -30,10 +30,9 @@ export function words(actions, said) {
       const input = add(label, "input");
       Object.assign(input, { type: "radio", name, value: word });
       add(label, "span", "", name === "action" ? word : title(word));
-      input.addEventListener("change", () => said(chosen("action"), chosen("object")));
+      input.addEventListener("change", () => said(word));
     }
   };
-  const chosen = (name) => document.querySelector(`input[name=${name}]:checked`)?.value;
   pills(part("actions"), "action", actions);
   pills(part("objects"), "object", OBJECTS.map((name) => name.toUpperCase()));
 }

@@ -33,6 +33,7 @@ def browser(started, served):
     started.wait_for(DRAWN)
     yield started
     started.click("#again")
+    says(started, "Ready to")
     assert started.messages == []
     assert all(each.startswith((served.address, "data:")) for each in started.requests)
 
@@ -63,6 +64,14 @@ def test_words_are_clicked_and_both_verdicts_are_read(browser):
     says(browser, "INDICATE Red: ")
     assert browser.text("#judges") == ""
     choose(browser, "#speed", "1")
+
+
+def test_news_from_before_a_click_does_not_take_it_back(browser):
+    browser.evaluate(
+        "(() => { const word = (value) => document.querySelector(`input[value=${value}]`);"
+        "word('MOVE').click(); word('TOUCH').checked = true; word('BLUE').click(); })()"
+    )
+    says(browser, "Ready to MOVE Blue")
 
 
 def test_an_object_is_dragged_over_the_table(browser):

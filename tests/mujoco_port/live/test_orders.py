@@ -8,13 +8,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from arm2d import Instruction, ObjectWord
+from arm2d import ActionWord, Instruction, ObjectWord
 from mujoco_port.live.orders import KINDS, Again, Loop, Place, Reset, Run, Say, Speed, read_order
 
 ORDERS = {
-    '{"do": "say", "words": "Touch GREEN"}': Say(Instruction.parse("touch green")),
+    '{"do": "say", "words": "Touch GREEN"}': Say.both(Instruction.parse("touch green")),
+    '{"do": "say", "words": "MOVE"}': Say(ActionWord.MOVE, None),
+    '{"do": "say", "words": " red "}': Say(None, ObjectWord.RED),
     '{"do": "place", "object": "red", "x": -120, "y": 90.5}': Place(ObjectWord.RED, -120.0, 90.5),
     '{"do": "reset", "area": "left", "seed": 12}': Reset("left", 12),
+    '{"do": "reset", "area": "left"}': Reset("left", None),
+    '{"do": "reset", "seed": 0}': Reset(None, 0),
     '{"do": "loop", "closed": true}': Loop(True),
     '{"do": "run", "on": false}': Run(False),
     '{"do": "again"}': Again(),

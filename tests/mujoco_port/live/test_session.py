@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from arm2d import Instruction, ObjectWord, Readings, Trials, record_trial
+from arm2d import ActionWord, Instruction, ObjectWord, Readings, Trials, record_trial
 from mujoco_port.acting.lab import Lab
 from mujoco_port.live.orders import Again, Loop, Place, Reset, Run, Say, Speed
 from mujoco_port.live.placing import Placing
@@ -38,7 +38,7 @@ def test_both_verdicts_are_those_of_the_same_trial_in_a_lab(
     lab, actor, draw_trial, draw_start, evolved_agent, closed, text
 ):
     session = Session(lab, actor, draw_start, closed=closed, seed=3)
-    session.do(Say(words(text)))
+    session.do(Say.both(words(text)))
     to_the_end(session)
     told = session.state()
     trial = asked(draw_trial("right", 3), words(text))
@@ -93,11 +93,11 @@ def test_while_it_is_paused_nothing_moves_and_then_it_goes_on(session):
 
 
 def test_other_words_are_heard_at_once_and_judged_anew(session):
-    session.do(Say(words("indicate red")))
+    session.do(Say.both(words("indicate red")))
     session.do(Run(True))
     for _ in range(100):
         session.tick()
-    session.do(Say(words("move blue")))
+    session.do(Say.both(words("move blue")))
     for _ in range(10):
         session.tick()
     told = session.state()
@@ -110,9 +110,9 @@ def test_other_words_are_heard_at_once_and_judged_anew(session):
 
 
 def test_after_a_verdict_other_words_go_on_from_where_the_robot_is(session):
-    session.do(Say(words("move red")))
+    session.do(Say.both(words("move red")))
     last = to_the_end(session)[-1]
-    session.do(Say(words("indicate blue")))
+    session.do(Say.both(words("indicate blue")))
     assert session.running
     assert session.state()["robot"] is None
     following = session.tick()
@@ -123,7 +123,7 @@ def test_after_a_verdict_other_words_go_on_from_where_the_robot_is(session):
 
 def test_an_agent_is_not_asked_for_what_it_never_heard(session):
     with pytest.raises(ValueError, match="this agent has no instruction IGNORE Red; it has MOVE Blue"):
-        session.do(Say(words("ignore red")))
+        session.do(Say.both(words("ignore red")))
 
 
 def test_what_is_touched_when_words_change_is_forgiven_until_it_is_let_go():
@@ -145,7 +145,7 @@ def test_objects_are_moved_between_trials_only(session):
 
 
 def test_after_a_trial_the_others_stand_where_they_lie(session):
-    session.do(Say(words("move red")))
+    session.do(Say.both(words("move red")))
     lying = to_the_end(session)[-1].places[:, :2]
     session.do(Place(ObjectWord.BLUE, 140.0, 40.0))
     standing = session.tick().places[:, :2]
@@ -193,6 +193,14 @@ def test_a_reset_draws_the_start_that_its_seed_means(session, draw_start):
     assert session.state()["seed"] == 7
 
 
+def test_orders_that_come_together_do_not_take_each_other_back(session):
+    """A reader clicks two words, or an area and a seed, before the page has heard of the first."""
+    for order in (Say(ActionWord.MOVE, None), Say(None, ObjectWord.RED), Reset("left"), Reset(seed=9)):
+        session.do(order)
+    told = session.state()
+    assert (told["words"], told["area"], told["seed"]) == (["MOVE", "RED"], "left", 9)
+
+
 def test_the_loop_is_closed_and_opened_between_trials(session):
     session.do(Loop(True))
     assert session.state()["closed"]
@@ -202,12 +210,12 @@ def test_the_loop_is_closed_and_opened_between_trials(session):
 def test_where_the_robot_cannot_reach_the_trial_breaks_off_with_a_reason(robot, actor, draw_start):
     far = Lab(replace(robot, plane=replace(robot.plane, scale=0.0028)))
     session = Session(far, actor, draw_start)
-    session.do(Say(words("touch red")))
+    session.do(Say.both(words("touch red")))
     to_the_end(session)
     told = session.state()
     assert told["phase"] == "ended"
     assert "beyond the reach of the arm" in told["fault"]
     with pytest.raises(ValueError, match="this trial broke off"):
-        session.do(Say(words("touch blue")))
+        session.do(Say.both(words("touch blue")))
     session.do(Again())
     assert session.state()["fault"] == ""
