@@ -7,7 +7,6 @@ All numbers come from `evolution.results.analysis`; here they become text, table
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
@@ -25,8 +24,9 @@ from evolution.player.agents import described, is_playable
 from evolution.player.page import as_json, player_parts
 from evolution.report.classes import behaviours_kept, class_figures
 from evolution.report.configuration import readings_rows, settings_rows, versions_rows
+from evolution.report.films import films_of
 from evolution.report.pictures import figure_uri, file_uri
-from evolution.report.safety import content_policy, link_to
+from evolution.report.safety import content_policy
 from evolution.report.sentences import departures_in_size, result_sentences, standing_of_best
 from evolution.report.tables import category_tables, main_lines, shown_runs, shown_tests
 from evolution.results.notable import NotableAgent, best_agent
@@ -103,7 +103,7 @@ def _content(results: Results, home: Path) -> dict[str, Any]:
         "players": as_json(players) if players else "",
         "neurons": counted(experiment.all_runs[0].config.settings.inter_neurons),
         "trials": TRIALS,
-        "films": list(_films(experiment.path, home)),
+        "films": list(films_of(experiment.path, home)),
         "settings": settings_rows(results),
         "readings": readings_rows(experiment.readings),
         "versions": versions_rows(results),
@@ -165,13 +165,3 @@ def _figures_beside(agent: NotableAgent) -> tuple[list[tuple[str, str]], list[st
             except (ValueError, OSError) as error:
                 refused.append(f"{path} is not shown: {error}")
     return figures, refused
-
-
-def _films(experiment: Path, home: Path) -> Iterable[tuple[str, str]]:
-    """(name, relative link) of every film that lies beside the runs; links and unfinished files are none."""
-    films = [*experiment.glob("videos/[!.]*.mp4"), *experiment.glob("*/*/videos/[!.]*.mp4")]
-    for path in sorted(films):
-        if path.is_symlink() or path.parent.is_symlink() or not path.is_file():
-            continue
-        parts = [part for part in path.relative_to(experiment).parts[:-1] if part != "videos"]
-        yield ", ".join([*parts, path.stem.replace("-", " ")]), link_to(path, home)

@@ -14,6 +14,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from arm2d import Condition, Readings
+from arm2d.films import write_mp4
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.agents.subtasks import SUBTASKS
@@ -92,6 +93,10 @@ def results(experiment):
 @pytest.fixture(scope="session")
 def text(results, experiment):
     return render(results, experiment)
+
+
+def test_everything_in_the_template_is_filled_in(text):
+    assert not re.search(r"\{\{|\{%|%\}|\}\}", Page(text).text)
 
 
 def test_the_page_parses_and_needs_nothing_from_elsewhere(text):
@@ -255,10 +260,11 @@ def test_an_experiment_without_any_result_is_a_page_too(finished_run, tmp_path):
 
 @pytest.fixture(scope="module")
 def furnished(results, experiment):
-    """The page of an experiment with a film beside a run, and a drawing of its best agent's ancestors."""
+    """The pages, above it and elsewhere, of an experiment with a film beside a run, and a drawing of its best
+    agent's ancestors."""
     film = experiment / "with-ignore" / "seed-0001" / "videos" / "champion-touch-green.mp4"
     film.parent.mkdir()
-    film.touch()
+    write_mp4([np.full((90, 160, 3), 200, np.uint8)] * 20, film, 10)
     for leftover in (".champion-touch-green.unfinished.mp4", ".champion-touch-green.mp4.0a1b2c3d.unfinished"):
         (film.parent / leftover).touch()  # of a process that was killed
     agent = best_agent(results.conditions[Condition.WITH_INDICATE])
@@ -267,18 +273,27 @@ def furnished(results, experiment):
     stem = f"generation-{agent.generation:06d}-rank-{agent.rank}"
     (drawings / f"{stem}.svg").write_text("<svg/>")
     (drawings / "generation-000000-rank-0.svg").write_text("<svg/>")  # another agent's
-    text = render(results, experiment.parent)
+    texts = render(results, experiment.parent), render(results, experiment.parent / "elsewhere")
     shutil.rmtree(film.parent)
     shutil.rmtree(drawings)
-    return text
+    return texts
 
 
 def test_films_beside_the_runs_are_linked(furnished, experiment):
     place = f"./{quote(experiment.name)}/with-ignore/seed-0001/videos/champion-touch-green.mp4"
-    elements = Page(furnished).elements
+    elements = Page(furnished[0]).elements
     assert [a["href"] for tag, a in elements if tag == "a" and "mp4" in a["href"]] == [place]
     assert [a["src"] for tag, a in elements if tag == "video"] == [place]
-    assert "no film beside these runs" not in Page(furnished).text
+    assert "no film beside these runs" not in Page(furnished[0]).text
+
+
+def test_a_page_shows_a_still_of_each_film_and_only_that_of_one_it_cannot_reach(furnished):
+    above, elsewhere = (Page(text).elements for text in furnished)
+    (video,) = [a for tag, a in above if tag == "video"]
+    assert video["poster"].startswith("data:image/jpeg;base64,")
+    assert "video" not in [tag for tag, _ in elsewhere]
+    (still,) = [a for tag, a in elsewhere if tag == "img" and a["src"] == video["poster"]]
+    assert still["alt"] == "A still of the film: with-ignore, seed-0001, champion touch green"
 
 
 def test_without_films_the_commands_that_make_them_are_told(text, results):
@@ -294,7 +309,7 @@ def test_without_films_the_commands_that_make_them_are_told(text, results):
 
 
 def test_figures_drawn_for_the_best_agent_are_taken_along(furnished):
-    assert furnished.count('alt="Its line of ancestors"') == 1
+    assert furnished[0].count('alt="Its line of ancestors"') == 1
 
 
 def test_a_drawing_is_shortened_where_no_eye_can_tell_and_replaced_where_it_is_huge(tmp_path):
