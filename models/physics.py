@@ -29,6 +29,10 @@ TABLE_FRICTION = 0.5
 # cylinder, whose half-width is sqrt(2 radius depth), 8 mm where a cylinder of 17 mm is pressed in by 1.9 mm,
 # or one of 22 mm by 1.5 mm. Without it cylinders roll off a hand that is not quite square to its way.
 ROLLING_RESISTANCE = 0.008
+# [m], of a skin's soft layer, two millimetres thick, that gives way under next to no force, and is felt. An
+# arm that stops swings by a tenth of a millimetre; without this, what it has pushed counts as untouched. Since
+# MuJoCo 3.9 a geom's gap is where contacts are found that push nothing.
+SKIN = 0.0005
 # A motor pulls like a spring of this natural frequency on the inertia that the joint moves at rest,
 # critically damped: stiff enough to hold the hand, soft enough for steps of 2 ms.
 NATURAL_FREQUENCY = 66.0  # [rad/s]
@@ -116,6 +120,7 @@ def add_shape(spec: mujoco.MjSpec, shape: ContactShape) -> None:
         priority=1,  # the hand's friction holds, not the larger of both
         friction=[HAND_FRICTION, 0.005, ROLLING_RESISTANCE],
         condim=6,
+        gap=SKIN,
         **place,
     )
 

@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import Condition
+from arm2d import Condition, Readings
 from arm2d.readings import PLAIN
 from evolution.agents.subtasks import AgentClass, categories, classify, count_table
 from evolution.experiments.experiment import Experiment
@@ -39,19 +39,22 @@ from evolution.study.drawn import read_drawn
 from evolution.study.results import write_pictures
 
 RESULTS: Final = Path(__file__).parents[1] / "docs" / "results"
+# The experiments whose results are stored, each with its readings.
+WORLDS: Final = {RESULTS: Readings(), RESULTS / "plain": PLAIN}
 # The parts of the study, each with the one in which what its variants stand on was evolved.
 PARTS: Final = {"screening": None, "finalists": None, "around": None, "confirmation": "finalists"}
 
 
 def main() -> None:
     """Draw and write all of them."""
-    results = stored_results(read_arrays(RESULTS / "results.npz"))
-    for name, draw in (
-        ("fitness", fitness_figure),
-        ("table-ii", table_figure),
-        ("generalisers", generalisers_figure),
-    ):
-        print(*save_figure(draw(results), RESULTS / name), sep="\n")
+    for folder, readings in WORLDS.items():
+        results = stored_results(folder, readings)
+        for name, draw in (
+            ("fitness", fitness_figure),
+            ("table-ii", table_figure),
+            ("generalisers", generalisers_figure),
+        ):
+            print(*save_figure(draw(results), folder / name), sep="\n")
     curves = read_curves(RESULTS / "learning" / "curves.csv")
     print(*save_figure(learning_figure(curves), RESULTS / "learning" / "curves"), sep="\n")
     for part, before in PARTS.items():
@@ -88,20 +91,21 @@ def distances_in(table: Path) -> dict[str, float]:
         return {row["world"]: float(row["distance"]) for row in csv.DictReader(file)}
 
 
-def stored_results(arrays: dict[str, NDArray]) -> Results:
-    """The experiment as far as its archive tells it: without transitions, and without stays of genotypes."""
+def stored_results(folder: Path, readings: Readings) -> Results:
+    """An experiment as far as its archive tells it: without transitions, and without stays of genotypes."""
+    arrays = read_arrays(folder / "results.npz")
     found = {
-        condition: _condition(condition, {name: arrays[f"{condition}.{name}"] for name in ARRAYS})
+        condition: _condition(condition, readings, {name: arrays[f"{condition}.{name}"] for name in ARRAYS})
         for condition in Condition
     }
-    experiment = Experiment(RESULTS, {condition: own.runs for condition, own in found.items()})
+    experiment = Experiment(folder, {condition: own.runs for condition, own in found.items()})
     return Results(experiment, found, {}, {})
 
 
 ARRAYS: Final = ("seeds", "best", "first_solved", "generations", "successes")
 
 
-def _condition(condition: Condition, arrays: dict[str, NDArray]) -> ConditionResults:
+def _condition(condition: Condition, readings: Readings, arrays: dict[str, NDArray]) -> ConditionResults:
     best, successes = arrays["best"].astype(float), arrays["successes"].astype(np.int16)
     generations, n_runs = arrays["generations"], len(arrays["seeds"])
     tables = np.array([count_table(categories(own.reshape(-1, 9), condition)) for own in successes])
@@ -109,7 +113,7 @@ def _condition(condition: Condition, arrays: dict[str, NDArray]) -> ConditionRes
     return ConditionResults(
         condition=condition,
         runs=tuple(
-            RunFolder(RESULTS / f"seed-{seed:04d}", RunConfig(condition, int(seed), readings=PLAIN))
+            RunFolder(RESULTS / f"seed-{seed:04d}", RunConfig(condition, int(seed), readings=readings))
             for seed in arrays["seeds"]
         ),
         seeds=arrays["seeds"],

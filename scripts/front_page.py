@@ -44,7 +44,7 @@ WIDTH, VIEW, STRIP = 800, 450, 132
 SMOOTH: Final = 2
 INSET, CORNER = 168, 14
 # The picture: its scale, and the moment [steps]. The loop: its scale and pace.
-STILL_SCALE, STILL_STEP = 1.6, 190
+STILL_SCALE, STILL_STEP = 1.6, 140
 LOOP_SCALE, LOOP_STEPS, LOOP_PER_SECOND = 1.0, 1.5, 10
 SILENT_FRAMES, ONE_WORD_FRAMES, WORDS_FRAMES, LAST_FRAMES = 5, 6, 8, 16
 # Between normal and high: 200 pictures at half the size need no more.

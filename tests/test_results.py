@@ -1,4 +1,4 @@
-"""docs/results.md against the numbers it stands on, docs/results/results.npz."""
+"""The pages results.md and plain.md against the numbers they stand on, in docs/results."""
 
 import csv
 from pathlib import Path
@@ -28,14 +28,37 @@ from evolution.study.table import variant_table
 from tests.evolution.made_up import condition_results, results
 
 ROOT = Path(__file__).parents[1] / "docs"
-PAGE = (ROOT / "results.md").read_text(encoding="utf-8")
+# Pages, each with the folder of its numbers.
+PAGES: Final = {"results.md": ROOT / "results", "plain.md": ROOT / "results" / "plain"}
 EMPTY = results({})
 
 
+@pytest.fixture(scope="module", params=PAGES)
+def page(request):
+    return request.param
+
+
 @pytest.fixture(scope="module")
-def arrays():
-    with np.load(ROOT / "results" / "results.npz", allow_pickle=False) as stored:
+def text(page):
+    return (ROOT / page).read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def arrays(page):
+    with np.load(PAGES[page] / "results.npz", allow_pickle=False) as stored:
         return {name: stored[name] for name in stored.files}
+
+
+def rows_of(page, name):
+    """The lines of a stored table, as dictionaries."""
+    with (PAGES[page] / name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def cells(text, begin):
+    """The cells, but the first, of the line of a table in a page."""
+    (line,) = [line for line in text.splitlines() if line.startswith(f"| {begin} |")]
+    return [cell.strip() for cell in line.split("|")[2:-1]]
 
 
 def agents(arrays, condition):
@@ -43,22 +66,94 @@ def agents(arrays, condition):
     return arrays[f"{condition}.successes"].astype(int)
 
 
-def test_category_ten_of_table_ii_is_what_the_page_says(arrays):
+def test_category_ten_of_table_ii_is_what_the_page_says(arrays, text):
     columns = {c: count_table(categories(agents(arrays, c).reshape(-1, 9), c))[10] for c in Condition}
-    for row, subtask in enumerate(("I, the seven", "II, with MOVE", "III, with TOUCH", "IV, all nine")):
-        (line,) = [line for line in PAGE.splitlines() if line.startswith(f"| {subtask}")]
-        cells = [int(cell) for cell in line.split("|")[2:-1]]
-        assert cells[1::2] == [int(columns[condition][row]) for condition in Condition]
+    subtasks = ("I, the seven experienced", "II, with MOVE Blue", "III, with TOUCH Green", "IV, all nine")
+    for row, subtask in enumerate(subtasks):
+        told = [int(cell) for cell in cells(text, subtask)]
+        assert told[1::2] == [int(columns[condition][row]) for condition in Condition]
 
 
-def test_the_papers_kind_of_test_tells_halves_of_one_condition_apart(arrays):
+def test_runs_that_learn_the_seven_and_when_are_what_the_page_says():
+    page = "results.md"
+    text = (ROOT / page).read_text(encoding="utf-8")
+    ends, first = cells(text, "runs that end at about 2.57"), {}
+    for number, condition in enumerate(Condition):
+        own = [row for row in rows_of(page, "runs.csv") if row["condition"] == condition]
+        plateaus = [float(row["plateau"]) for row in own]
+        assert ends[1 + number] == f"{sum(p > 18 / 7 - 0.02 for p in plateaus)} of 10"
+        solved = [row["first generation that solved all trials"] for row in own]
+        first[condition] = [int(each) for each in solved if each != "never"]
+    indicate, ignore = first.values()
+    assert (len(indicate), len(ignore)) == (7, 10)
+    assert cells(text, "first generation in which one genotype solved all 28 trials")[1:] == [
+        f"{min(indicate)} to {max(indicate)} in seven runs, never in three",
+        f"{min(ignore)} to {max(ignore)}",
+    ]
+
+
+def test_transitions_are_what_the_page_says():
+    page = "results.md"
+    text = (ROOT / page).read_text(encoding="utf-8")
+    found = {(row["condition"], row["class"]): row for row in rows_of(page, "transitions.csv")}
+    for kind in ("fully compositional", "partially compositional", "non-compositional"):
+        (line,) = [each for each in text.splitlines() if each.startswith(f"| action word | {kind} |")]
+        ours = [cell.strip() for cell in line.split("|")[4:-1:2]]
+        for told, condition in zip(ours, Condition, strict=True):
+            row = found[condition, kind]
+            assert told.split(",")[0] == f"{row['pass action']} of {row['agents']}"
+            assert row["pass action"] == "0" or f"in {row['runs action']} of" in told
+    for condition, told in zip(Condition, cells(text, "object word")[2::2], strict=True):
+        own = [row for (where, _), row in found.items() if where == condition]
+        assert told == f"0 of {sum(int(row['agents']) for row in own)}"
+        assert {row["pass object"] for row in own} == {"0"}
+
+
+CLASS_COLUMNS: Final = (
+    "share of variance, object, the second before first sight",
+    "share of variance, action, the second before first sight",
+    "share of variance, object, 0.5 to 3 s after first sight",
+    "share of variance, action, 0.5 to 3 s after first sight",
+    "success, experienced, intact",
+    "success, experienced, action word exchanged before sight",
+    "success, experienced, object word exchanged after sight",
+    "success, experienced, action word exchanged after sight",
+    "success, experienced, object word exchanged before sight",
+)
+
+
+def test_what_classes_do_is_what_the_page_says(text, page):
+    found = {(r["condition"], r["class"], r["measure"]): r for r in rows_of(page, "classes.csv")}
+    lines = 0
+    for title, condition in (
+        ("With-Indicate", Condition.WITH_INDICATE),
+        ("With-Ignore", Condition.WITH_IGNORE),
+    ):
+        for kind in ("fully", "partially", "non-compositional"):
+            if not any(line.startswith(f"| {title}, {kind} |") for line in text.splitlines()):
+                continue
+            own = {m: r for (c, k, m), r in found.items() if c == condition and k.startswith(kind)}
+            intact = own["success, experienced, intact"]
+            told = cells(text, f"{title}, {kind}")
+            counted = f"{intact['agents observed']} ({int(intact['agents in the class']):,})"
+            assert told[0].split("),")[0].removesuffix(")").replace(",", "") == counted[:-1].replace(",", "")
+            shares = [float(own[measure]["mean over runs"]) for measure in CLASS_COLUMNS]
+            percents = [float(each) for cell in told[1:] for each in cell.replace("%", "").split(",")]
+            assert percents == pytest.approx([100 * share for share in shares[: len(percents)]], abs=0.51)
+            lines += 1
+    assert lines == {"results.md": 6, "plain.md": 5}[page]
+
+
+def test_the_papers_kind_of_test_tells_halves_of_one_condition_apart(arrays, text):
     """Why the run has to be the unit: told that ten runs are five of either condition, only the paper's kind
     of test finds that the conditions differ."""
     successes = agents(arrays, Condition.WITH_INDICATE)
     halves = dict(zip(Condition, (successes[:5], successes[5:]), strict=True))
     found = results({condition: condition_results(condition, half) for condition, half in halves.items()})
     name = "sub-task I, category 10"
-    assert found.published_tests[name][1] < 1e-40
+    p = found.published_tests[name][1]
+    assert p < 1e-40
+    assert f"with p = {p:.0e}" in text
     assert found.comparisons[name].mann_whitney_p > 0.05
 
 
@@ -79,14 +174,13 @@ def stored(arrays):
 
 
 @pytest.mark.parametrize(("name", "table"), [("table-ii", table_ii), ("tests", significance_table)])
-def test_tables_made_again_from_the_archive_have_the_stored_bytes(stored, name, table):
-    assert table(stored).to_csv().encode() == (ROOT / "results" / f"{name}.csv").read_bytes()
+def test_tables_made_again_from_the_archive_have_the_stored_bytes(stored, page, name, table):
+    assert table(stored).to_csv().encode() == (PAGES[page] / f"{name}.csv").read_bytes()
 
 
-def test_runs_made_again_from_the_archive_have_the_stored_values(stored):
+def test_runs_made_again_from_the_archive_have_the_stored_values(stored, page):
     unknown = {"plateau", "distinct genotypes", "longest stay among the five best"}
-    with (ROOT / "results" / "runs.csv").open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(page, "runs.csv")
     again = list(csv.DictReader(run_table(stored).to_csv().splitlines()))
     assert len(rows) == 20
     for row, made in zip(rows, again, strict=True):
@@ -98,7 +192,7 @@ def test_runs_made_again_from_the_archive_have_the_stored_values(stored):
         assert float(row["plateau"]) == pytest.approx(np.median(last), abs=5.1e-5)
 
 
-STORED: Final = {
+OF_AN_EXPERIMENT: Final = {
     "table-ii.csv": table_ii(EMPTY),
     "runs.csv": run_table(EMPTY),
     "transitions.csv": transition_table(EMPTY),
@@ -107,6 +201,10 @@ STORED: Final = {
     "generaliser-genotypes.csv": genotype_table(EMPTY),
     "classes.csv": class_table([], Sampling()),
     "classes-runs.csv": class_run_table([]),
+}
+STORED: Final = {
+    **OF_AN_EXPERIMENT,
+    **{f"plain/{name}": table for name, table in OF_AN_EXPERIMENT.items()},
     "readings/favourite/comparison.csv": key_number_table({"default": EMPTY, "mutation-sd-0.03": EMPTY}),
     **{
         f"readings/{part}-{name}.csv": table

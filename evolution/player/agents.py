@@ -17,7 +17,7 @@ from evolution.search.evaluation import evaluate
 INTRODUCTIONS: Final = {
     "best-generaliser": (
         "The generaliser",
-        "Practised seven instructions; of the two others it does MOVE Blue always, TOUCH Green mostly.",
+        "Practised seven instructions. It carries out the two others as surely, though nothing asked for it.",
     ),
     "best-specialist": (
         "The specialist",
@@ -25,7 +25,7 @@ INTRODUCTIONS: Final = {
     ),
     "with-ignore": (
         "The one told to ignore",
-        "Its third action is IGNORE, not INDICATE. It does all nine, two of them never practised.",
+        "Its third action is IGNORE, not INDICATE. It does all nine too, two of them never practised.",
     ),
 }
 

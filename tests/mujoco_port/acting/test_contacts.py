@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from arm2d import Instruction, Readings, draw_trials, record_trial
+from models.physics import SKIN
 from mujoco_port.acting.contacts import LEFT_SIDE, OBJECT, RIGHT_SIDE, ContactSensors
 from mujoco_port.acting.exertion import tracking_errors
 from mujoco_port.acting.lab import Lab
@@ -44,6 +45,27 @@ def test_object_that_comes_from_one_side_is_felt_by_that_side_first(lab, reached
     assert next(bits for bits in felt if bits) == side
 
 
+def test_skin_is_felt_by_what_hardly_touches_it_and_pushes_it_nowhere(lab, reached):
+    """Within half a millimetre; a robot's arm swings by a tenth when it stops."""
+    distance = float(np.hypot(*lab.kinematics.forward(reached).position[:2])) - 0.005
+    gaps = []
+    for bearing in np.arange(ALPHA - 20.0, ALPHA, 0.01):
+        lab.body.start(reached, places(lab, bearing, distance))
+        touched, depth = ContactSensors(lab.body).read()
+        if depth:
+            break
+        if touched[1]:
+            contacts = lab.body.data.contact
+            pair = (contacts.geom == lab.body.model.geom("green").id).any(axis=1) & (contacts.exclude == 1)
+            gaps.extend(contacts.dist[pair])
+            assert lab.body.data.nefc == standing  # nothing pushes it that did not before
+        else:
+            standing = lab.body.data.nefc
+    assert gaps
+    assert 0.4e-3 < max(gaps) <= SKIN
+    assert min(gaps) > 0.0
+
+
 @pytest.mark.parametrize("pressed", [0.5e-3, 2e-3])
 def test_hand_that_is_pressed_in_by_a_depth_reads_this_depth(lab, reached, pressed):
     """The object is moved against the skin's normal, from where it hardly touches."""
@@ -52,8 +74,9 @@ def test_hand_that_is_pressed_in_by_a_depth_reads_this_depth(lab, reached, press
         standing = places(lab, bearing, distance - 0.005)
         lab.body.start(reached, standing)
         touched, depth = skin.read()
-        if touched[1]:
+        if depth:
             break
+    assert touched[1]
     assert depth < 0.1e-3
     contacts = lab.body.data.contact
     green = (contacts.geom == lab.body.model.geom("green").id).any(axis=1)

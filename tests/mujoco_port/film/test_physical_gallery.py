@@ -90,7 +90,8 @@ def test_the_bar_of_a_cell_is_as_long_as_its_rate(rate):
     assert bar[: int(bar.sum())].all()
 
 
-def test_a_gallery_counts_trials_from_both_areas_not_those_shown(agent):
+def test_a_gallery_counts_trials_from_both_areas_not_those_shown():
+    agent = find_agent("best-specialist")  # which fails two instructions
     title, rates = headline(agent, agent.condition)
     trials = draw_trials(agent.condition.instructions, 40, agent.readings, generator(0, Purpose.EVALUATION))
     success = run_trials(agent.genotype, trials, agent.readings).success.reshape(9, 80)
