@@ -78,7 +78,6 @@ def test_runs_with_agents_that_carry_out_held_out_instructions(decided, runs):
     assert "{} of 30 With-Indicate and {} of 30 With-Ignore runs have late agents".format(*ours) in ARTICLE
     partial = [sum(int(r["partially compositional"]) > 0 for r in runs["winner", c]) for c in CONDITIONS]
     assert "{} and {} runs agents that carry out one".format(*partial) in ARTICLE
-    assert "{} against {} of 30 runs,".format(*ours) in ARTICLE
 
 
 def share(own, part, whole):
@@ -87,19 +86,72 @@ def share(own, part, whole):
     return sum(int(row[part]) for row in own) / agents, agents
 
 
-def test_agents_that_generalise(runs):
-    full = [percent(share(runs["winner", c], "fully compositional", "agents")[0]) for c in CONDITIONS]
-    assert "{} against {} of late agents".format(*full) in ARTICLE
-    assert "{} of late With-Indicate and {} of late With-Ignore agents are fully".format(*full) in ARTICLE
-    understood = "masters that understand MOVE Blue"
-    blue = [percent(share(runs["winner", c], understood, "masters")[0]) for c in CONDITIONS]
-    assert "{} and {} understand MOVE Blue".format(*blue) in ARTICLE
-    winner = [row for row in rows(READINGS / "fresh.csv") if row["mutation_probability"] == "0.04"]
-    before = [[row for row in winner if row["condition"] == c] for c in CONDITIONS]
-    first, second = (100 * share(own, "fully compositional", "agents")[0] for own in before)
-    assert f"it was {first:.1f} and {second:.1f} %" in ARTICLE
-    first, second = (100 * share(own, understood, "masters")[0] for own in before)
-    assert f"{first:.0f} and {second:.0f} %: too few to tell" in ARTICLE
+@pytest.fixture(scope="module")
+def hundred():
+    """The hundred runs of each condition under the default."""
+    found = {c: [] for c in CONDITIONS}
+    for row in rows(READINGS / "hundred.csv"):
+        if row["mutation_probability"] != "0.4":
+            found[row["condition"]].append(row)
+    assert {len(own) for own in found.values()} == {100}
+    return found
+
+
+@pytest.fixture(scope="module")
+def claim():
+    """Answers by source of runs and question."""
+    return {(row["runs"], row["question"]): row for row in rows(READINGS / "claim.csv")}
+
+
+def points(row, digits=1):
+    """A difference in points, with its interval."""
+    value, low, high = (100 * float(row[name]) for name in ("difference", "low", "high"))
+    return f"{value:+.{digits}f} points [{low:+.{digits}f}, {high:+.{digits}f}]"
+
+
+def means(row):
+    return [percent(row[name]) for name in ("With-Indicate", "With-Ignore")]
+
+
+def test_the_claim_is_answered_as_its_table_says(claim, hundred):
+    question = "fully compositional agents"
+    first = claim["default", question]
+    for condition, name in zip(CONDITIONS, ("With-Indicate", "With-Ignore"), strict=True):
+        shares = [int(r["fully compositional"]) / int(r["agents"]) for r in hundred[condition]]
+        assert float(first[name]) == pytest.approx(sum(shares) / 100, abs=1e-5)
+    pages = {
+        name: " ".join((DOCS / name).read_text().split())
+        for name in ("article.md", "statistics.md", "../README.md")
+    }
+    assert all(points(first) in page for page in pages.values())
+    told = "{} of late With-Indicate and {} of late With-Ignore".format(*means(first))
+    assert f"{told} agents are fully" in ARTICLE
+    assert f"{told} networks carry out all nine" in pages["statistics.md"]
+    assert f"{points(first)}, p = {first['p']}. The verdict" in ARTICLE
+    # By the rule of docs/declaration.md.
+    over_worlds = claim["factorial worlds", question]
+    decided = float(first["p"]) < 0.01 and float(first["difference"]) * float(over_worlds["difference"]) > 0
+    holds_zero = [float(row["low"]) <= 0 <= float(row["high"]) for row in (first, over_worlds)]
+    assert not decided
+    assert any(holds_zero)
+    assert "is *undecided*" in ARTICLE
+
+
+def test_where_the_conditions_differ(claim, hundred):
+    ends = [sum(float(r["plateau"]) >= 18 / 7 - 0.02 for r in hundred[c]) for c in CONDITIONS]
+    full = [sum(int(r["fully compositional"]) > 0 for r in hundred[c]) for c in CONDITIONS]
+    assert "{} With-Indicate and {} With-Ignore runs of 100 end at 18/7".format(*ends) in ARTICLE
+    having = claim["default", "runs with fully compositional agents"]
+    told = "agents are found in {} and {} runs".format(*full)
+    assert f"{told} ({points(having, 0)}, p = {having['after Holm']} after correction)" in ARTICLE
+    understanding = [
+        claim["default", f"masters that understand {word}"] for word in ("MOVE Blue", "TOUCH Green", "both")
+    ]
+    for row in understanding:
+        assert "({} against {})".format(*means(row)) in ARTICLE
+    assert "p = {}, {} and {} before".format(*(row["p"] for row in understanding)) in ARTICLE
+    page = " ".join((DOCS / "readings.md").read_text().split())
+    assert "{} and {} of them end at 18/7, {} and {} have".format(*ends, *full) in page
 
 
 def test_table_ii(decided):
@@ -121,32 +173,43 @@ def test_table_ii(decided):
             assert float(found[3 * i].removesuffix("%")) == pytest.approx(paper, rel=0.07, abs=0.03)
 
 
-def test_transitions(runs):
-    def passed(world, condition, kind, word):
-        return share(runs[world, condition], f"{kind}, pass {word} transitions", kind)
-
+def test_transitions(runs, claim, hundred):
     kinds = ("fully compositional", "partially compositional", "non-compositional")
-    (full, n_full), (part, n_part) = (passed("winner", "with-indicate", kind, "action") for kind in kinds[:2])
-    ignore = [passed("winner", "with-ignore", kind, "action") for kind in kinds]
-    assert all(value == 0 for value, _ in ignore)
-    n_ignore = sum(n for _, n in ignore)
-    told = f"{percent(full)} of fully and {percent(part)} of partially compositional With-Indicate agents"
+
+    def passed(own, kind, word):
+        return sum(int(row[f"{kind}, pass {word} transitions"]) for row in own)
+
+    answers = [claim["default", f"{kind} agents that pass action transitions"] for kind in kinds]
+    full, part, non = (percent(row["With-Indicate"]) for row in answers)
+    ignoring = hundred["with-ignore"]
+    assert [passed(ignoring, kind, "action") for kind in kinds] == [0, 0, 0]
+    n_ignore = sum(int(row[kind]) for row in ignoring for kind in kinds)
+    told = f"{full} of fully and {part} of partially compositional With-Indicate agents"
     assert f"{told}, none of {n_ignore:,} With-Ignore" in ARTICLE
-    assert f"With-Indicate agents {percent(full)} (of {n_full:,}) carry out" in ARTICLE
-    assert f"of the partially compositional {percent(part)} (of {n_part:,})" in ARTICLE
-    assert f"With-Ignore nobody (of {n_ignore:,})" in ARTICLE
-    printed, n_printed = passed("printed", "with-indicate", kinds[1], "action")
+    assert f"{full} of a run's fully compositional With-Indicate agents carry out" in ARTICLE
+    assert (
+        f"({answers[0]['With-Indicate runs']} runs, {points(answers[0], 0)}), {part} of the part" in ARTICLE
+    )
+    assert f"{non} of the non-compositional ones" in ARTICLE
+    assert f"With-Ignore nobody does (of {n_ignore:,})" in ARTICLE
+    permuted, modelled = answers[0]["p by permutation of runs"], answers[0]["p"]
+    assert f"By permutation of runs p is {permuted};" in ARTICLE
+    assert f"hardly informs, {modelled}." in ARTICLE
+    statistics = " ".join((DOCS / "statistics.md").read_text().split())
+    assert f"{part} of the partially compositional, none of {n_ignore:,} With-Ignore" in statistics
+    printed, n_printed = share(
+        runs["printed", "with-indicate"], f"{kinds[1]}, pass action transitions", kinds[1]
+    )
     assert sum(int(row[kinds[0]]) for row in runs["printed", "with-indicate"]) == 0
     assert f"{percent(printed)} of {n_printed} partially compositional With-Indicate agents" in ARTICLE
     assert f"{percent(printed)} of the {n_printed} partially" in ARTICLE
-    others = [passed("printed", "with-ignore", kind, "action") for kind in kinds]
-    assert all(value == 0 for value, _ in others)
-    assert f"none of {sum(n for _, n in others):,} With-Ignore; none fully" in ARTICLE
-    objects = [
-        sum(int(row[f"{kind}, pass object transitions"]) for own in runs.values() for row in own)
-        for kind in kinds
-    ]
-    assert objects == [0, 0, 0]
+    others = runs["printed", "with-ignore"]
+    assert [passed(others, kind, "action") for kind in kinds] == [0, 0, 0]
+    n_others = sum(int(row[kind]) for row in others for kind in kinds)
+    assert f"none of {n_others:,} With-Ignore; none fully" in ARTICLE
+    objects = sum(passed(own, kind, "object") for own in hundred.values() for kind in kinds)
+    told = f"{objects} agents of all pass" if objects else "nobody passes"
+    assert f"The changes of the object word {told};" in ARTICLE
 
 
 def test_the_default_is_what_was_decided(decided):
@@ -334,18 +397,21 @@ def test_newest_first_reaches_more(effects):
     assert f"{newest:.1f} against {elders:.1f} % With-Ignore" in page
 
 
-def test_the_first_table_of_the_readme_says_what_the_tables_say(decided):
+def test_the_first_table_of_the_readme_says_what_the_tables_say(decided, hundred):
     readme = (DOCS.parent / "README.md").read_text()
 
-    def line(told, column, form=str):
-        printed, ours = (", ".join(form(each) for each in of_both(decided, w, column)) for w in WORLDS)
-        return f"| {told} | {printed}{{}} | {ours}{{}} |"
+    def line(paper, column, ours, unit=" of 30", form=str):
+        printed = ", ".join(form(each) for each in of_both(decided, "printed", column))
+        told = ", ".join(form(each) for each in ours)
+        return f"| {paper} | {printed}{unit} | {told}{unit.replace('30', '100')} |"
 
-    assert line("10, 10 of 10", "at 18/7").format(" of 30", " of 30") in readme
-    mastered = line("60, 66 %", "category 10 of I", lambda share: percent(share).removesuffix(" %"))
-    assert mastered.format(" %", " %") in readme
-    column = "runs with fully compositional agents"
-    assert line("6 of 10, not given", column).format(" of 30", " of 30") in readme
+    ends = [sum(float(r["plateau"]) >= 18 / 7 - 0.02 for r in hundred[c]) for c in CONDITIONS]
+    assert line("10, 10 of 10", "at 18/7", ends) in readme
+    mastered = [share(hundred[c], "category 10 of I", "agents")[0] for c in CONDITIONS]
+    short = lambda each: percent(each).removesuffix(" %")  # noqa: E731
+    assert line("60, 66 %", "category 10 of I", mastered, " %", short) in readme
+    full = [sum(int(r["fully compositional"]) > 0 for r in hundred[c]) for c in CONDITIONS]
+    assert line("6 of 10, not given", "runs with fully compositional agents", full) in readme
 
 
 def test_entries_of_the_ledger():

@@ -33,6 +33,7 @@ def viewer(served):
         assert greeting["actions"] == ["MOVE", "TOUCH", "INDICATE"]
         yield viewer
         ask(viewer, do="again")
+        state(viewer, lambda told: told["phase"] == "ready")  # or the next one's orders may come before it
 
 
 def ask(viewer, **order):
