@@ -49,9 +49,10 @@ def test_agreement_is_what_its_trials_say():
     readme = (DOCS.parent / "README.md").read_text("utf-8")
     assert f"{told}, an iCub with motors, contacts and free objects carries out {carried_out} " in readme
     article = (DOCS / "article.md").read_text("utf-8")
-    assert f"{carried_out} of {of} trials" in article
+    assert f"| {carried_out} of {of} |" in article
     assert f"{told} the robot carries out {carried_out}" in article
     before, of_before = both(rows("agreement-plain.csv"))
+    assert f"plain readings: {before} of {of_before} trials" in article
     assert f"{before} of {of_before}, {100 * before / of_before:.1f} %" in PHYSICS
 
 
