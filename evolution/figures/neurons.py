@@ -66,7 +66,7 @@ def variance_figure(shares: Mapping[str, VarianceShares], origin: str = "") -> F
         figure = Figure(figsize=(FULL, 2.9))
         head(figure, "Which word the activity follows", origin)
         panels = figure.subplots(1, len(shares), sharey=True, squeeze=False)[0]
-        figure.subplots_adjust(left=0.075, right=0.985, top=0.785, bottom=0.23, wspace=0.06)
+        figure.subplots_adjust(left=0.075, right=0.985, top=0.785, bottom=0.23, wspace=0.14)
         for axes, (event, own) in zip(panels, shares.items(), strict=True):
             draw_variance(axes, own)
             axes.set_title(event, fontweight="bold")
