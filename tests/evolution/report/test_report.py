@@ -208,9 +208,9 @@ def test_the_best_agents_live_at_the_top_of_the_page(text, results):
 
 
 @NEEDS_BROWSER
-def test_the_page_lives_and_can_be_read_in_a_browser(text, tmp_path):
+def test_the_page_lives_and_can_be_read_in_a_browser(furnished, tmp_path):
     page = tmp_path / "report.html"
-    page.write_text(text, encoding="utf-8")
+    page.write_text(furnished[1], encoding="utf-8")  # with a still of a film
     with Browser(tmp_path / "chromium") as browser:
         for width, scheme in ((360, "light"), (1280, "dark")):
             browser.open(page, width=width, scheme=scheme)
