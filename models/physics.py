@@ -30,8 +30,8 @@ TABLE_FRICTION = 0.5
 # or one of 22 mm by 1.5 mm. Without it cylinders roll off a hand that is not quite square to its way.
 ROLLING_RESISTANCE = 0.008
 # [m], of a skin's soft layer, two millimetres thick, that gives way under next to no force, and is felt. An
-# arm that stops swings by a tenth of a millimetre; without this, what it has pushed counts as untouched. Since
-# MuJoCo 3.9 a geom's gap is where contacts are found that push nothing.
+# arm that stops swings by a tenth of a millimetre; without this, what it has pushed counts as untouched.
+# Since MuJoCo 3.9 a geom's gap is where contacts are found that push nothing.
 SKIN = 0.0005
 # A motor pulls like a spring of this natural frequency on the inertia that the joint moves at rest,
 # critically damped: stiff enough to hold the hand, soft enough for steps of 2 ms.

@@ -48,7 +48,7 @@ def test_object_that_comes_from_one_side_is_felt_by_that_side_first(lab, reached
 def test_skin_is_felt_by_what_hardly_touches_it_and_pushes_it_nowhere(lab, reached):
     """Within half a millimetre; a robot's arm swings by a tenth when it stops."""
     distance = float(np.hypot(*lab.kinematics.forward(reached).position[:2])) - 0.005
-    gaps = []
+    gaps, untouched = [], 0
     for bearing in np.arange(ALPHA - 20.0, ALPHA, 0.01):
         lab.body.start(reached, places(lab, bearing, distance))
         touched, depth = ContactSensors(lab.body).read()
@@ -58,9 +58,9 @@ def test_skin_is_felt_by_what_hardly_touches_it_and_pushes_it_nowhere(lab, reach
             contacts = lab.body.data.contact
             pair = (contacts.geom == lab.body.model.geom("green").id).any(axis=1) & (contacts.exclude == 1)
             gaps.extend(contacts.dist[pair])
-            assert lab.body.data.nefc == standing  # nothing pushes it that did not before
+            assert lab.body.data.nefc == untouched  # nothing pushes it that did not before
         else:
-            standing = lab.body.data.nefc
+            untouched = lab.body.data.nefc
     assert gaps
     assert 0.4e-3 < max(gaps) <= SKIN
     assert min(gaps) > 0.0
