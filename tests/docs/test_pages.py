@@ -17,7 +17,7 @@ CONFIG = yaml.safe_load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))
 ASKED = {
     "how to resume a run": ("how-to/resume.md", "To resume, give the same command again"),
     "what success is": ("success.md", "A trial succeeds if F1 = F2 = 1"),
-    "how sure the verdict is": ("statistics.md", "Today there is no verdict on the paper's claim"),
+    "how sure the verdict is": ("statistics.md", "The paper's claim does not come out"),
     "how to add a word": ("how-to/instruction.md", "Add a word"),
     "why two machines give the same bits": ("same-bits.md", "Only exact operations decide"),
 }
