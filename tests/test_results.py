@@ -1,6 +1,7 @@
 """The pages results.md and plain.md against the numbers they stand on, in docs/results."""
 
 import csv
+import re
 from pathlib import Path
 from typing import Final
 
@@ -107,6 +108,17 @@ def test_transitions_are_what_the_page_says():
         own = [row for (where, _), row in found.items() if where == condition]
         assert told == f"0 of {sum(int(row['agents']) for row in own)}"
         assert {row["pass object"] for row in own} == {"0"}
+
+
+def test_differences_are_those_of_the_tests(page, text):
+    for row in rows_of(page, "tests.csv")[:4]:
+        told = cells(text, row["compared"].removesuffix(", category 10"))
+        values = [100 * float(row[name]) for name in ("With-Indicate", "With-Ignore")]
+        assert told[:2] == [f"{value:.1f} %" for value in values]
+        found = re.findall(r"-?[\d.]+", told[2])
+        expected = [100 * float(row[name]) for name in ("difference", "95 % low", "95 % high")]
+        assert [float(each) for each in found] == pytest.approx(expected[: len(found)], abs=0.051)
+        assert float(told[3]) == pytest.approx(float(row["Mann-Whitney p"]), rel=0.05)
 
 
 CLASS_COLUMNS: Final = (
