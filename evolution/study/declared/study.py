@@ -15,11 +15,12 @@ from evolution.study.declared.claim import answer_table, answers, averaged_over_
 from evolution.study.declared.claim_figure import claim_figure
 from evolution.study.declared.confirmation.decision import WINNER, decision, judged
 from evolution.study.declared.confirmation.figure import TITLES, draw_worlds
+from evolution.study.declared.confirmation.less_one import cost_table, costs
+from evolution.study.declared.confirmation.less_one_figure import less_one_figure
 from evolution.study.declared.confirmation.verdict import (
     Verdict,
     decide,
     duel_table,
-    less_one_table,
     world_table,
 )
 from evolution.study.declared.confirmation.worlds import (
@@ -141,7 +142,12 @@ class DeclaredStudy:
             if len(own) < len(LESS_ONE_SEEDS)
         ]
         told = {factor: own for factor, own in without.items() if own}
-        return _write([("less-one-effects", less_one_table(_indicate(with_all), told))], results), notes
+        found = costs(_indicate(with_all), told)
+        seeds = f"seeds {LESS_ONE_SEEDS[0]} to {LESS_ONE_SEEDS[-1]}"
+        about = f"{len(runs)} runs With-Indicate, {seeds}, less the winner's run with the same seed"
+        figure = less_one_figure(found, winner, "The winner less one departure at a time", about)
+        table = _write([("less-one-effects", cost_table(found))], results)
+        return [*table, *save_figure(figure, results / "less-one-effects")], notes
 
     def _write_hundred(self, runs: Sequence[MeasuredRun], results: Path) -> Written:
         default = [run for run in runs if run.config.readings == Readings()]

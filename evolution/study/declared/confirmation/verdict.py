@@ -1,4 +1,4 @@
-"""Who wins the confirmation, whether it beats the printed readings, and which of its departures it needs.
+"""Who wins the confirmation, and whether it beats the printed readings.
 
 Rules as declared in docs/declaration.md. Axes: R runs.
 """
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from arm2d import Condition, Readings
 from evolution.experiments.variants import variant_name
 from evolution.report.columns import PlainTable
-from evolution.results.statistics import compare, mean_interval, sign_flip_test
+from evolution.results.statistics import compare, mean_interval
 from evolution.search.randomness import Purpose, generator
 from evolution.study.declared.confirmation.worlds import CANDIDATES, PRINTED, RunsOfWorlds
 from evolution.study.declared.nearest import distance
@@ -161,35 +161,6 @@ def duel_table(fought: Sequence[Duel]) -> PlainTable[Duel]:
     )
 
 
-def less_one_table(
-    winner: Sequence[MeasuredRun], without: Mapping[str, Sequence[MeasuredRun]]
-) -> PlainTable[_Cost]:
-    """One row per departure and figure: what going back to the default costs, by seed.
-
-    Args:
-        winner: Its With-Indicate runs.
-        without: The runs of the winner less one, by the factor that went back; a seed of the winner's each.
-    """
-    pairs = [(factor, outcome) for factor in without for outcome in JUDGED]
-    differences = [_paired(without[factor], winner, outcome) for factor, outcome in pairs]
-    p = np.array([sign_flip_test(difference) for difference in differences])
-    costs = [
-        _Cost(factor, outcome, len(difference), _mean(difference), float(own), float(corrected))
-        for (factor, outcome), difference, own, corrected in zip(pairs, differences, p, holm(p), strict=True)
-    ]
-    return PlainTable(
-        {
-            "factor": lambda cost: cost.factor,
-            "outcome": lambda cost: cost.outcome.name,
-            "seeds": lambda cost: cost.seeds,
-            **estimate_columns("difference", "low", "high", of=lambda cost: cost.difference),
-            "p": lambda cost: f"{cost.p:.2g}",
-            "after Holm": lambda cost: f"{cost.corrected:.2g}",
-        },
-        costs,
-    )
-
-
 @dataclass(frozen=True)
 class _RunsOfWorld:
     """A row of the table of worlds."""
@@ -197,18 +168,6 @@ class _RunsOfWorld:
     world: str
     condition: Condition
     runs: Sequence[MeasuredRun]
-
-
-@dataclass(frozen=True)
-class _Cost:
-    """A row of the table of departures: what going back with one factor costs in one figure."""
-
-    factor: str
-    outcome: Outcome
-    seeds: int
-    difference: Estimate
-    p: float
-    corrected: float
 
 
 def distance_of(own: Mapping[Condition, Sequence[MeasuredRun]], spreads: Spreads) -> float:
@@ -233,16 +192,6 @@ def duels(
         Duel(*which, Estimate(each.difference, *each.interval), each.permutation_p, float(p))
         for which, each, p in zip(what, found, corrected, strict=True)
     ]
-
-
-def _paired(
-    ours: Sequence[MeasuredRun], theirs: Sequence[MeasuredRun], outcome: Outcome
-) -> NDArray[np.float64]:
-    """Ours less theirs, for every seed that both have."""
-    other = {run.config.seed: outcome.of_run(run) for run in theirs}
-    return np.array(
-        [outcome.of_run(run) - other[run.config.seed] for run in ours if run.config.seed in other]
-    )
 
 
 def _mean(values: NDArray[np.float64]) -> Estimate:

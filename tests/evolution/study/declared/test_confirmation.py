@@ -12,7 +12,9 @@ from evolution.cli import main
 from evolution.commands.study import DECLARED_PARTS
 from evolution.study.declared.confirmation.decision import WINNER, decision, judged
 from evolution.study.declared.confirmation.figure import worlds_figure
-from evolution.study.declared.confirmation.verdict import decide, duel_table, less_one_table, world_table
+from evolution.study.declared.confirmation.less_one import cost_table, costs
+from evolution.study.declared.confirmation.less_one_figure import less_one_figure
+from evolution.study.declared.confirmation.verdict import JUDGED, decide, duel_table, world_table
 from evolution.study.declared.confirmation.worlds import (
     DEFAULT,
     PRINTED,
@@ -247,28 +249,74 @@ def test_less_one_takes_back_one_departure_at_a_time():
     assert {c.seed for c in part.configs} < {c.seed for c in fresh(CHOSEN).configs}
 
 
-def test_what_a_departure_is_worth_is_told_seed_by_seed():
+# What the winner's plateau loses without a departure.
+LOST = {"ties": 0.3, "mutation": 0.0}
+
+
+@pytest.fixture(scope="module")
+def taken_back():
+    """Runs of a winner, and of the winner less one departure with the same seeds."""
     rng, part = np.random.default_rng(1), less_one(WORLD_B)
-    winner = [made_up(replace(c, readings=WORLD_B), 2.5 + rng.normal(0, 0.05)) for c in part.configs[::4]]
-    lost = {"ties": 0.3, "mutation": 0.0}
+    winner = [made_up(replace(c, readings=WORLD_B), 2.55 + rng.normal(0, 0.03)) for c in part.configs[::4]]
     without = {
         name: [
             made_up(
                 replace(run.config, readings=departures(WORLD_B)[name]),
-                run.plateau - cost + rng.normal(0, 0.01),
+                run.plateau - lost + rng.normal(0, 0.01),
             )
             for run in winner
         ]
-        for name, cost in lost.items()
+        for name, lost in LOST.items()
     }
-    rows = {
-        (r["factor"], r["outcome"]): r
-        for r in csv.DictReader(less_one_table(winner, without).to_csv().splitlines())
-    }
+    return winner, without
+
+
+def table_of(taken_back):
+    rows = csv.DictReader(cost_table(costs(*taken_back)).to_csv().splitlines())
+    return {(row["factor"], row["outcome"]): row for row in rows}
+
+
+def test_what_a_departure_is_worth_is_told_seed_by_seed(taken_back):
+    rows, (winner, without) = table_of(taken_back), taken_back
     ties, mutation = rows["ties", "plateau"], rows["mutation", "plateau"]
     assert float(ties["difference"]) == pytest.approx(-0.3, abs=0.02)
     assert float(ties["after Holm"]) < 0.01 < float(mutation["after Holm"])
     assert int(ties["seeds"]) == 20
+    for name, row in (("ties", ties), ("mutation", mutation)):
+        assert int(row["at 18/7"]) == sum(run.at_limit for run in without[name])
+        assert int(row["winner at 18/7"]) == sum(run.at_limit for run in winner) > 0
+
+
+def test_a_seed_that_the_winner_has_not_run_counts_on_neither_side(taken_back):
+    winner, without = taken_back
+    found = costs(winner[1:], without)
+    assert {len(cost.differences) for cost in found} == {19}
+    assert {cost.winners_at_limit for cost in found} == {sum(run.at_limit for run in winner[1:])}
+
+
+def test_picture_of_departures_shows_every_seed_and_what_is_taken_back(taken_back):
+    rows, (winner, without) = table_of(taken_back), taken_back
+    figure = less_one_figure(costs(winner, without), WORLD_B, "title")
+    labels = [label.get_text() for label in figure.axes[0].get_yticklabels()]
+    assert labels == ["ties: elders\nin place of children", "mutation: 0.4 / 0.1\nin place of 0.4 / 0.03"]
+    with_all = sum(run.at_limit for run in winner)
+    assert [text.get_text() for text in figure.axes[0].texts][1:] == [
+        f"{sum(run.at_limit for run in without[name])} : {with_all}" for name in LOST
+    ]
+    for axes, outcome in zip(figure.axes, JUDGED, strict=True):
+        scale = 100 if outcome.is_share else 1
+        marks = [line for line in axes.lines if line.get_label() != "zero"]
+        for row, name in enumerate(LOST):
+            told, (seeds, interval, mean) = rows[name, outcome.name], marks[3 * row : 3 * row + 3]
+            pairs = zip(without[name], winner, strict=True)
+            np.testing.assert_allclose(
+                seeds.get_xdata(), [scale * (outcome.of_run(a) - outcome.of_run(b)) for a, b in pairs]
+            )
+            ends = [scale * float(told[each]) for each in ("low", "high")]
+            assert list(interval.get_xdata()) == pytest.approx(ends, abs=0.01)
+            assert list(mean.get_xdata()) == pytest.approx([scale * float(told["difference"])], abs=0.01)
+            assert list(mean.get_ydata()) == [row]
+            assert (mean.get_markerfacecolor() == "white") == (float(told["after Holm"]) >= 0.05)
 
 
 @pytest.mark.parametrize("default", [Readings(), WORLD_B], ids=["today's", "another"])
