@@ -107,9 +107,9 @@ def _scale(outcome: Outcome) -> float:
 
 def _legend() -> list[Line2D]:
     """What marks mean."""
-    dot = {"color": COLOUR, "marker": "o"}
+    mean = {"lw": 1.3, "ms": 4.2}
     return [
-        Line2D([], [], ls="", ms=1.8, alpha=0.5, label="a seed", **dot),
-        Line2D([], [], lw=1.3, ms=4.2, label="mean, 95 %; p < 0.05 after Holm", **dot),
-        Line2D([], [], lw=1.3, ms=4.2, mfc="white", label="not shown to matter", **dot),
+        Line2D([], [], color=COLOUR, marker="o", ls="", ms=1.8, alpha=0.5, label="a seed"),
+        Line2D([], [], color=COLOUR, marker="o", **mean, label="mean, 95 %; p < 0.05 after Holm"),
+        Line2D([], [], color=COLOUR, marker="o", **mean, mfc="white", label="not shown to matter"),
     ]
