@@ -80,10 +80,9 @@ def test_an_output_that_takes_no_more_is_one_sentence(command, run):
     assert done.stderr.count("\n") == 1
 
 
-@pytest.mark.parametrize("encoding", ["latin-1", "ascii"])
 @pytest.mark.parametrize("command", ["evaluate", "lineage", "status", "--help"])
-def test_what_the_output_cannot_encode_is_replaced(command, encoding, run):
-    environment = {**os.environ, "PYTHONIOENCODING": encoding}
+def test_what_the_output_cannot_encode_is_replaced(command, run):
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
     done = wordarm(command, *([] if command == "--help" else [run]), env=environment)
     assert done.returncode == 0, done.stderr
 

@@ -41,7 +41,7 @@ SEEN_FROM_THE_END = [
     {"object_vision": "any_part", "object_radius": 11.8},
     {"f3_time": "best", "bound_vision": "near", "object_radius": 10.0, "start_areas": "bounds"},
 ]
-TRIALS_PER_ALTERNATIVE = -(-8_000 // len(ALTERNATIVES))
+TRIALS_PER_ALTERNATIVE = -(-5_000 // len(ALTERNATIVES))
 
 
 def genotypes_of(evolved_plain, n, rng):
@@ -95,13 +95,13 @@ def test_readings_of_the_search_change_no_trial(evolved_plain):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("alternative", SEEN_FROM_THE_END, ids=str)
-def test_kernel_and_reference_agree_on_a_thousand_trials_seen_from_the_end_of_s1(alternative, evolved_plain):
+def test_kernel_and_reference_agree_on_hundreds_of_trials_seen_from_the_end_of_s1(alternative, evolved_plain):
     readings = replace(PLAIN, camera_origin="end").with_values(alternative)
     rng = np.random.default_rng([11, SEEN_FROM_THE_END.index(alternative)])
     for condition in Condition:
         trials = draw_trials(condition.instructions, 2, readings, rng)
         assert len(trials) == 36
-        assert not list(disagreements(genotypes_of(evolved_plain, 14, rng), trials, readings))
+        assert not list(disagreements(genotypes_of(evolved_plain, 8, rng), trials, readings))
 
 
 @pytest.mark.parametrize("readings", [PLAIN, replace(PLAIN, camera_origin="end")], ids=["J1", "end"])
