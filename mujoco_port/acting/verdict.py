@@ -4,7 +4,7 @@ Judged is what happened to the objects, moment by moment of the physics. S1 exis
 only: the one that was ordered.
 
     INDICATE   10 s on end: the target's bearing within 4.6 degrees of S1 (30 if the reading `indicate_angle`
-               is wide), and nothing touches the target
+               is wide, but 4.6 in the end, as F1 asks), and nothing touches the target
     TOUCH      10 s on end: on target, the hand's little-finger side on the target, S1 at rest
     MOVE       on target and the hand's little-finger side on the target, from a touch on, until the target's
                bearing has changed by 34.4 degrees; it stands upright all the while
@@ -66,11 +66,19 @@ def judge(record: PhysicalRecord, readings: Readings) -> Verdict:
     when = int(np.argmax(reached)) if reached.any() else n
     best = float(progress[: fault + 1].max(initial=0.0))
     if when < fault:
-        return Verdict(True, "carried out", best, when, True)
+        return _at_the_goal(record, readings, best, when)
     if others.any():
         return Verdict(False, "another object was touched", best, fault, True)
     unit = "degrees" if action is ActionWord.MOVE else "s"
     return Verdict(False, f"{best:.1f} of {goal:g} {unit}", best, n, False)
+
+
+def _at_the_goal(record: PhysicalRecord, readings: Readings, best: float, when: int) -> Verdict:
+    """What it is worth to have done for as long as was asked: INDICATE has to point closely, too."""
+    off = float(_offsets(record)[when])
+    if record.instruction.action is ActionWord.INDICATE and off >= readings.target_cone:
+        return Verdict(False, f"{off:.1f} degrees beside the object in the end", best, when, True)
+    return Verdict(True, "carried out", best, when, True)
 
 
 def progress_of(record: PhysicalRecord, readings: Readings) -> tuple[NDArray[np.float64], float]:
@@ -79,6 +87,11 @@ def progress_of(record: PhysicalRecord, readings: Readings) -> tuple[NDArray[np.
     if record.instruction.action is ActionWord.MOVE:
         return arcs(good, bearings(record)[:, target]), readings.move_angle
     return lengths(good, record.step_s), GOOD_TIME_S
+
+
+def _offsets(record: PhysicalRecord) -> NDArray[np.float64]:
+    """How far the target's bearing is from S1, [N] in [deg]."""
+    return np.abs(bearings(record)[:, int(record.instruction.object)] - record.alpha)
 
 
 def bearings(record: PhysicalRecord) -> NDArray[np.float64]:
@@ -115,7 +128,7 @@ def arcs(good: NDArray[np.bool_], bearing: NDArray[np.float64]) -> NDArray[np.fl
 def _is_good(record: PhysicalRecord, readings: Readings) -> NDArray[np.bool_]:
     """The moments that count, [N]."""
     action, target = record.instruction.action, int(record.instruction.object)
-    off = np.abs(bearings(record)[:, target] - record.alpha)
+    off = _offsets(record)
     touched = record.contact[:, target] != 0
     right = closed((record.contact[:, target] & RIGHT_SIDE) != 0, round(LONGEST_BREAK_S / record.step_s))
     if action is ActionWord.INDICATE:

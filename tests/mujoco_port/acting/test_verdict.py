@@ -169,13 +169,23 @@ def test_target_is_met_just_inside_its_cone_on_either_side_and_not_outside(side)
 
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 def test_the_wide_cone_is_indicates_only(side):
-    """30 degrees; TOUCH keeps its 4.6."""
+    """30 degrees until the end, when F1 asks for 4.6; TOUCH keeps its 4.6."""
     wide = replace(READINGS, indicate_angle="wide")
     for off, met in ((4.7, True), (29.9, True), (30.1, False)):
         alpha = np.full(6000, 90.0 + side * off)
+        alpha[TEN_SECONDS - 100 :] = 90.0 + side * 4.5
         assert judge(trial("indicate green", alpha=alpha), wide).success == met
         touch = trial("touch green", alpha=alpha, contact=touching(GREEN, RIGHT_SIDE))
         assert not judge(touch, wide).success
+
+
+def test_who_points_beside_the_object_in_the_end_has_not_indicated_it():
+    """As in the plane, where the trial ends then, with F1 below 1."""
+    alpha = np.full(6000, 90.0 + 4.7)
+    verdict = judge(trial("indicate green", alpha=alpha), replace(READINGS, indicate_angle="wide"))
+    assert (verdict.success, verdict.certain) == (False, True)
+    assert verdict.reason == "4.7 degrees beside the object in the end"
+    assert verdict.end == TEN_SECONDS - 1
 
 
 def test_bearings_run_from_minus_90_over_the_left_bound_without_a_jump():
