@@ -74,8 +74,12 @@ def judge(record: PhysicalRecord, readings: Readings) -> Verdict:
 
 
 def _at_the_goal(record: PhysicalRecord, readings: Readings, best: float, when: int) -> Verdict:
-    """What it is worth to have done for as long as was asked: INDICATE has to point closely, too."""
-    off = float(_offsets(record)[when])
+    """What it is worth to have done for as long as was asked: INDICATE has to point closely, too.
+
+    The plane's trial ends at one of its steps, some moment of the last 0.1 s: the best of these counts.
+    """
+    step = round(DT / record.step_s)
+    off = float(_offsets(record)[max(0, when - step) : when + 1].min())
     if record.instruction.action is ActionWord.INDICATE and off >= readings.target_cone:
         return Verdict(False, f"{off:.1f} degrees beside the object in the end", best, when, True)
     return Verdict(True, "carried out", best, when, True)
