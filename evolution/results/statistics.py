@@ -211,6 +211,12 @@ def difference_of_means(groups: list[NDArray[np.float64]]) -> NDArray[np.float64
     return groups[0].mean(axis=1) - groups[1].mean(axis=1)
 
 
+def ratio_of_means(groups: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """First by second, for each pair of resampled groups, [samples, runs] each: [samples]; inf for by 0."""
+    first, second = (group.mean(axis=1) for group in groups)
+    return np.divide(first, second, out=np.full_like(first, np.inf), where=second > 0)
+
+
 def _wilson(k: int, n: int) -> tuple[float, float, float]:
     """A proportion with Wilson's 95 % interval."""
     p, z2 = k / n, NORMAL_95**2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
@@ -19,6 +19,7 @@ from evolution.results.statistics import (
     mean_interval,
     permutation_p,
     proportions_interval,
+    ratio_of_means,
     sign_flip_test,
 )
 from evolution.search.randomness import Purpose, generator
@@ -31,6 +32,9 @@ from evolution.study.late_transitions import CLASSES, TESTS
 STRICT: Final = 0.01
 FULL: Final = str(AgentClass.FULL)
 PARTIAL: Final = str(AgentClass.PARTIAL)
+# With fewer runs above 0, those that a bootstrap draws may all be 0, and nothing can be divided by them.
+ENOUGH: Final = 10
+UNKNOWN: Final = Estimate(float("nan"), float("nan"), float("nan"))
 
 
 @dataclass(frozen=True)
@@ -82,6 +86,9 @@ class Answer:
         p: Of the declared model,
         permutation_p: and of permuted runs; NaN for shares of runs and for worlds.
         corrected: p after Holm's correction; the first question's is its own.
+        ratio: With-Indicate's mean share by With-Ignore's, with a 95 % bootstrap interval over runs: told
+            beside the tests. Unknown where fewer than `ENOUGH` runs of a condition have any, for shares of
+            runs and for worlds.
     """
 
     question: str
@@ -91,6 +98,7 @@ class Answer:
     p: float
     permutation_p: float = float("nan")
     corrected: float = float("nan")
+    ratio: Estimate = UNKNOWN
 
 
 def answers(runs: Sequence[MeasuredRun]) -> list[Answer]:
@@ -176,12 +184,22 @@ def answer_table(sources: Iterable[tuple[str, Sequence[Answer]]]) -> PlainTable[
             "With-Indicate": lambda row: f"{row[1].means[0]:.5f}",
             "With-Ignore": lambda row: f"{row[1].means[1]:.5f}",
             **estimate_columns("difference", "low", "high", of=lambda row: row[1].difference, form=".5f"),
+            **_ratio_columns(),
             "p": lambda row: f"{row[1].p:.2g}",
             "p by permutation of runs": lambda row: _if_known(row[1].permutation_p),
             "after Holm": lambda row: f"{row[1].corrected:.2g}",
         },
         [(source, answer) for source, found in sources for answer in found],
     )
+
+
+def _ratio_columns() -> dict[str, Callable[[tuple[str, Answer]], str]]:
+    """Three columns that are empty where the ratio is unknown."""
+    columns = estimate_columns("ratio", "ratio low", "ratio high", of=lambda row: row[1].ratio, form=".2f")
+    return {
+        name: lambda row, told=told: "" if np.isnan(row[1].ratio.value) else told(row)
+        for name, told in columns.items()
+    }
 
 
 def _if_known(p: float) -> str:
@@ -197,8 +215,16 @@ def _by_counts(question: Question, groups: Sequence[Sequence[MeasuredRun]]) -> A
     tested = compare_counts(*(question.counts(group) for group in groups))
     return Answer(
         question.name, (len(first), len(second)), means, Estimate(means[0] - means[1], *interval),
-        tested.p, permutation_p(np.concatenate([first, second]), ways),
+        tested.p, permutation_p(np.concatenate([first, second]), ways), ratio=_ratio(first, second),
     )  # fmt: skip
+
+
+def _ratio(first: NDArray[np.float64], second: NDArray[np.float64]) -> Estimate:
+    """Of mean shares."""
+    if min(map(np.count_nonzero, (first, second))) < ENOUGH:
+        return UNKNOWN
+    interval = bootstrap_interval([first, second], ratio_of_means, generator(0, Purpose.STATISTICS))
+    return Estimate(float(first.mean() / second.mean()), *interval)
 
 
 def _by_runs(kind: str, groups: Sequence[Sequence[MeasuredRun]]) -> Answer:

@@ -17,6 +17,7 @@ from evolution.study.declared.claim import (
     FULL,
     QUESTIONS,
     Answer,
+    answer_table,
     answers,
     averaged_over_worlds,
     shares_by_world,
@@ -171,6 +172,23 @@ def test_worlds_are_compared_with_themselves():
     assert first.difference.low > 0.02
     assert first.difference.high < 0.06
     assert first.p < 1e-6
+
+
+def test_ratio_is_of_the_means_and_told_only_where_enough_runs_have_any():
+    """Its interval is that of whole runs drawn again and again, here by another way to draw them."""
+    rng = np.random.default_rng(5)
+    many = runs_of(Readings(), {INDICATE: 0.1, IGNORE: 0.3}, rng, seeds=30)
+    ratio = answers(many)[0].ratio
+    first, second = (
+        np.array([run.share(FULL) for run in many if run.config.condition is condition])
+        for condition in (INDICATE, IGNORE)
+    )
+    assert ratio.value == pytest.approx(first.mean() / second.mean())
+    drawn = [rng.choice(first, 30).mean() / rng.choice(second, 30).mean() for _ in range(4000)]
+    assert (ratio.low, ratio.high) == pytest.approx(np.quantile(drawn, [0.025, 0.975]), rel=0.1)
+    few = [run for run in many if run.config.seed <= 9]
+    assert np.isnan(answers(few)[0].ratio.value)
+    assert answer_table([("few", answers(few))]).rows()[0]["ratio low"] == ""
 
 
 def test_claim_is_written_by_one_command(tmp_path, capsys):
