@@ -116,7 +116,6 @@ def place_disc(
 def set_limit(lane: Lane, world: World, tables: Tables) -> Lane:
     """Work out from which beta on S2 may meet a disc within a step."""
     nearest = wp.min(wp.min(lane.distance[0], lane.distance[1]), lane.distance[2])
-    # The kernel reads nothing beyond 10 m either: no disc lies there.
     whole = wp.min(wp.int32(nearest - world.radius), LAST_CENTIMETRE)
     lane.limit = tables.largest_betas[whole] + world.turn
     return lane

@@ -59,6 +59,7 @@ def _largest_beta_that_reaches(distance: float) -> float:
 
 # By whole centimetres, which round the distance down: a lane may be looked at in vain, never missed.
 LARGEST_BETA = np.array([_largest_beta_that_reaches(float(distance)) for distance in range(1000)])
+LAST_CENTIMETRE = len(LARGEST_BETA) - 1
 
 
 @compiled(allocates=False)
@@ -159,7 +160,7 @@ def place_disc(s: Floats, at: int, bearing_deg: float, distance: float, world: W
 def set_limit(s: Floats, i: int, world: World) -> None:
     """Work out from which beta on S2 may meet a disc of lane i within a step."""
     nearest = min(s[DISTANCE + i], s[DISTANCE + N_LANES + i], s[DISTANCE + 2 * N_LANES + i])
-    s[LIMIT + i] = LARGEST_BETA[int(nearest - world.radius)] + world.turn
+    s[LIMIT + i] = LARGEST_BETA[min(int(nearest - world.radius), LAST_CENTIMETRE)] + world.turn
 
 
 @compiled(allocates=False)

@@ -29,7 +29,7 @@ class History:
         generations: [G], their numbers.
         fitness: [G, P], of each genotype.
         parents: [G, P], each genotype's parent as an index into the generation before; -1 in generation 0.
-        best_genotypes: [G, 5, N], from the best on; equals in the order of their indices.
+        best_genotypes: [G, 5, N], from the best on; equals as the reading `ties` ranks them.
         best: [G], highest fitness,
         mean: [G],
         median: [G],

@@ -11,7 +11,9 @@ only: the one that was ordered.
     IGNORE     10 s on end: the target neither in view nor touched; in view is what lies within 15 degrees of
                S1, seen from J1, or from S1's end where the camera is there
 
-As soon as the robot, or the target, touches another object the trial has failed.
+As soon as the robot, or the target, touches another object the trial has failed, unless the goal is reached
+in the same step of 0.1 s. `ignore_stops`, `run_counting`, `success` and `collision_penalty` mean here what they
+mean in the plane.
 """
 
 from __future__ import annotations
@@ -23,14 +25,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import ActionWord, Readings
-from arm2d.constants import DT, GOOD_STEPS_FOR_SUCCESS
+from arm2d.constants import BETA_MAX, DT, GOOD_STEPS_FOR_SUCCESS, MAX_STEPS
 from arm2d.geometry import in_view
-from mujoco_port.acting.contacts import RIGHT_SIDE
+from mujoco_port.acting.contacts import ARM, HAND, OBJECT, RIGHT_SIDE
 from mujoco_port.acting.rollout import PhysicalRecord
 
 GOOD_TIME_S: Final = DT * GOOD_STEPS_FOR_SUCCESS
 # Contacts of two hard bodies chatter. A break of at most this long is none.
 LONGEST_BREAK_S: Final = 0.02
+STRAIGHT: Final = 0.99  # of F3, under the strict reading of success
 UPRIGHT: Final = float(
     np.cos(np.radians(10.0))
 )  # a cylinder of 17 mm falls at 37, the narrowest, of 8 mm, at 20
@@ -57,39 +60,105 @@ class Verdict:
 
 def judge(record: PhysicalRecord, readings: Readings) -> Verdict:
     """Judge what a robot has done so far."""
-    action, target = record.instruction.action, int(record.instruction.object)
-    others = np.delete(record.contact, target, axis=1).any(axis=1)
-    n = len(record.alpha)
-    fault = int(np.argmax(others)) if others.any() else n
+    fault, n = _first_fault(record), len(record.alpha)
     progress, goal = progress_of(record, readings)
-    reached = progress >= goal - 1e-9
-    when = int(np.argmax(reached)) if reached.any() else n
+    when = _first(progress >= goal - 1e-9)
     best = float(progress[: fault + 1].max(initial=0.0))
-    if when < fault:
-        return _at_the_goal(record, readings, best, when)
-    if others.any():
+    if record.instruction.action is ActionWord.IGNORE and readings.ignore_stops == "never":
+        return _after_the_whole_trial(record, readings, best, fault)
+    if when < n and _in_time(record, readings, when, fault):
+        return _at_the_goal(record, readings, float(progress[when]), when)
+    if fault < n:
         return Verdict(False, "another object was touched", best, fault, True)
-    unit = "degrees" if action is ActionWord.MOVE else "s"
-    return Verdict(False, f"{best:.1f} of {goal:g} {unit}", best, n, False)
+    return Verdict(False, _so_far(record, best, goal), best, n, False)
+
+
+def _first(moments: NDArray[np.bool_]) -> int:
+    """The first of these moments [N]; N if there is none."""
+    return int(np.argmax(moments)) if moments.any() else len(moments)
+
+
+def _first_fault(record: PhysicalRecord) -> int:
+    """When the robot, or the target, first touches another object; N if never.
+
+    Objects that stand beside the target may touch one another, as discs may overlap in the plane.
+    """
+    target = int(record.instruction.object)
+    by_robot = (np.delete(record.contact, target, axis=1) & (HAND | ARM)).any(axis=1)
+    return _first(by_robot | ((record.contact[:, target] & OBJECT) != 0))
+
+
+def _in_time(record: PhysicalRecord, readings: Readings, when: int, fault: int) -> bool:
+    """Whether the goal was reached before a fault, or in the same step.
+
+    The plane scores the whole of its last step, also one that touches another object. Where such a touch cuts
+    F1 whole, the trial has failed then.
+    """
+    if readings.collision_penalty == "whole" and record.instruction.action is not ActionWord.IGNORE:
+        return when < fault
+    step = _moments_of_a_step(record)
+    return when // step <= fault // step
+
+
+def _moments_of_a_step(record: PhysicalRecord) -> int:
+    """Physics steps of a control step."""
+    return round(DT / record.step_s)
+
+
+def _so_far(record: PhysicalRecord, best: float, goal: float) -> str:
+    unit = "degrees" if record.instruction.action is ActionWord.MOVE else "s"
+    return f"{best:.1f} of {goal:g} {unit}"
 
 
 def _at_the_goal(record: PhysicalRecord, readings: Readings, best: float, when: int) -> Verdict:
-    """What it is worth to have done for as long as was asked: INDICATE has to point closely, too.
+    """What it is worth to have done for as long as was asked.
 
-    The plane's trial ends at one of its steps, some moment of the last 0.1 s: the best of these counts.
+    INDICATE has to point closely, too. The plane's trial ends at one of its steps, some moment of the last
+    0.1 s: the best of these counts. Under the strict reading of success S2 has to be straight.
     """
-    step = round(DT / record.step_s)
-    off = float(_offsets(record)[max(0, when - step) : when + 1].min())
-    if record.instruction.action is ActionWord.INDICATE and off >= readings.target_cone:
+    action = record.instruction.action
+    off = float(_offsets(record)[max(0, when - _moments_of_a_step(record)) : when + 1].min())
+    if action is ActionWord.INDICATE and off >= readings.target_cone:
         return Verdict(False, f"{off:.1f} degrees beside the object in the end", best, when, True)
+    if readings.success == "f1_f2_f3" and action in (ActionWord.TOUCH, ActionWord.MOVE):
+        straight = _straightness(record, readings, when)
+        if straight <= STRAIGHT:
+            bent = BETA_MAX * (1.0 - straight)
+            return Verdict(False, f"S2 was bent by {bent:.1f} degrees", best, when, True)
     return Verdict(True, "carried out", best, when, True)
 
 
+def _straightness(record: PhysicalRecord, readings: Readings, when: int) -> float:
+    """F3: how straight S2 is while the target is in view, at the end or at its best."""
+    control_step = np.arange(when + 1) // _moments_of_a_step(record) + 1
+    beta = record.orders[np.minimum(control_step, record.steps), 1]
+    straight = np.where(_in_view(record, readings)[: when + 1], 1.0 - beta / BETA_MAX, 0.0)
+    return float(straight.max() if readings.f3_time == "best" else straight[-1])
+
+
+def _after_the_whole_trial(record: PhysicalRecord, readings: Readings, best: float, fault: int) -> Verdict:
+    """IGNORE where nothing but a touch ends a trial: 10 s away at some time, and away in the end."""
+    end = min(fault, len(record.alpha) - 1, MAX_STEPS * _moments_of_a_step(record) - 1)
+    ended = fault < len(record.alpha) or len(record.alpha) >= MAX_STEPS * _moments_of_a_step(record)
+    if best < GOOD_TIME_S - 1e-9:
+        reason = "another object was touched" if fault <= end else _so_far(record, best, GOOD_TIME_S)
+        return Verdict(False, reason, best, end, ended)
+    if end >= 0 and _in_view(record, readings)[end]:
+        return Verdict(False, "the object is in view in the end", best, end, ended)
+    return Verdict(True, "carried out", best, end, ended)
+
+
 def progress_of(record: PhysicalRecord, readings: Readings) -> tuple[NDArray[np.float64], float]:
-    """How far the robot has come without a break, [N], and how far it has to: in [s], or [deg] for MOVE."""
+    """How far the robot has come, [N], and how far it has to: in [s], or [deg] for MOVE.
+
+    Without a break, or all in all if that is how runs are counted.
+    """
     good, target = _is_good(record, readings), int(record.instruction.object)
+    in_all = readings.run_counting == "cumulative"
     if record.instruction.action is ActionWord.MOVE:
-        return arcs(good, bearings(record)[:, target]), readings.move_angle
+        return arcs(good, bearings(record)[:, target], in_all=in_all), readings.move_angle
+    if in_all:
+        return record.step_s * np.cumsum(good), GOOD_TIME_S
     return lengths(good, record.step_s), GOOD_TIME_S
 
 
@@ -122,11 +191,25 @@ def lengths(good: NDArray[np.bool_], step_s: float) -> NDArray[np.float64]:
     return (step_s * (index - np.maximum.accumulate(np.where(good, 0, index)))).astype(np.float64)
 
 
-def arcs(good: NDArray[np.bool_], bearing: NDArray[np.float64]) -> NDArray[np.float64]:
-    """How far the bearing [N] in [deg] has changed since it has been good on end, [N] in [deg]."""
+def arcs(
+    good: NDArray[np.bool_], bearing: NDArray[np.float64], *, in_all: bool = False
+) -> NDArray[np.float64]:
+    """How far the bearing [N] in [deg] has changed while it was good, [N] in [deg].
+
+    On end; with `in_all` the way of earlier moments is added to it, a way back taken off.
+    """
+    if in_all:
+        moved = np.where(good & np.roll(good, 1), np.diff(bearing, prepend=bearing[:1]), 0.0)
+        return np.abs(np.cumsum(moved))
     index = np.arange(len(good))
     last_bad = np.maximum.accumulate(np.where(good, -1, index))
     return np.where(good, np.abs(bearing - bearing[np.maximum(last_bad, 0)]), 0.0)
+
+
+def _in_view(record: PhysicalRecord, readings: Readings) -> NDArray[np.bool_]:
+    """Whether the target is in view, [N]."""
+    places = record.objects[:, int(record.instruction.object), :2] / record.scale
+    return in_view(record.alpha, places, readings)
 
 
 def _is_good(record: PhysicalRecord, readings: Readings) -> NDArray[np.bool_]:
@@ -141,5 +224,4 @@ def _is_good(record: PhysicalRecord, readings: Readings) -> NDArray[np.bool_]:
         return (off < readings.target_cone) & right & record.still
     if action is ActionWord.MOVE:
         return (off < readings.target_cone) & right & (record.upright[:, target] > UPRIGHT)
-    seen = in_view(record.alpha, record.objects[:, target, :2] / record.scale, readings)
-    return ~seen & ~touched
+    return ~_in_view(record, readings) & ~touched

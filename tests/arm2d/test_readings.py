@@ -9,7 +9,7 @@ from arm2d import Readings
 from arm2d.readings import PLAIN, PRESETS, choices
 
 
-def test_default_readings_are_the_ledgers_bold_column():
+def test_plain_readings_are_the_printed_numbers_in_their_simplest_meaning():
     readings = PLAIN
     assert (readings.mutation_probability, readings.mutation_sd) == (0.4, 0.1)
     assert (readings.object_radius, readings.sector_half_width) == (5.0, 10.0)

@@ -128,7 +128,7 @@ def test_ratios_of_the_conditions(claim):
         *_, published, ours, _ = (cell.strip() for cell in line.split("|"))
         assert ours == told
         if end in paper:
-            assert float(published.removesuffix(" times")) == pytest.approx(paper[end], rel=0.02)
+            assert published == f"{paper[end]:.2g} times"
             assert float(row["ratio high"]) < paper[end]  # excluded, as the page says
     page = " ".join((DOCS / "statistics.md").read_text().split())
     first = claim["default", "fully compositional agents"]

@@ -26,6 +26,8 @@ const found = {
   again: JSON.stringify(plain(whole(wordarm.rewound(changed)))) === JSON.stringify(plain(whole(wordarm.open(agent, start, moveRed)))),
   dropped: unmoved.states.length,
   blueAt: unmoved.states[5].discs[0].bearing,
+  unended: wordarm.progress({ ...world, ignoreStops: false }, { judged: { action: 3, run: 50 } }),
+  paused: wordarm.progress(world, { judged: { action: 1, run: 25, good: false } }),
   deaf: wordarm.sense({ world, silenced: silenced({ object: true }) }, calm.states[0], touchRed).slice(12),
   mute: whole(wordarm.open(agent, start, touchRed, silenced({ neurons: [false, true, false] }))).states.map((s) => s.z[1]),
   third: wordarm.translated({ action: 2, object: 0 }, "with-ignore"),

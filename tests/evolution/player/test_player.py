@@ -51,6 +51,11 @@ def test_moving_an_object_drops_the_states_ahead(found):
     assert found["blueAt"] == pytest.approx(np.degrees(np.arctan2(-60, 120)))
 
 
+def test_what_is_done_grows_where_nothing_ends_a_trial_and_stays_where_runs_are_counted_all_in_all(found):
+    assert found["unended"] == 0.5  # 50 of the 100 steps away that are asked for
+    assert found["paused"] == 0.25
+
+
 def test_silenced_word_is_three_zeros_and_silenced_neuron_says_nothing(found):
     assert found["deaf"] == [0, 0, 0, 1, 0, 1]
     assert set(found["mute"]) == {0}

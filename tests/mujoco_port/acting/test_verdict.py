@@ -10,7 +10,7 @@ from arm2d import Instruction
 from arm2d.readings import PLAIN
 from mujoco_port.acting.contacts import ARM, LEFT_SIDE, OBJECT, RIGHT_SIDE
 from mujoco_port.acting.rollout import PhysicalRecord
-from mujoco_port.acting.verdict import bearings, closed, judge
+from mujoco_port.acting.verdict import arcs, bearings, closed, judge
 
 BLUE, GREEN, RED = 0, 1, 2
 TEN_SECONDS = 5000  # physics steps
@@ -37,7 +37,8 @@ def trial(words, n=6000, step_s=0.002, **changes):
         "contact": np.zeros((n, 3), np.uint8),
         "depth": np.zeros(n),
     }
-    return PhysicalRecord(instruction, 0.002, step_s, np.zeros((n // 50 + 1, 2)), **{**measured, **changes})
+    orders = changes.pop("orders", np.zeros((n // 50 + 1, 2)))
+    return PhysicalRecord(instruction, 0.002, step_s, orders, **{**measured, **changes})
 
 
 def touching(target, sides, n=6000):
@@ -118,6 +119,7 @@ def test_move_does_not_count_while_the_object_is_off_target_tilted_or_let_go():
 def test_touching_another_object_fails_a_trial_for_good(how):
     contact = touching(GREEN, 0)
     contact[2000, BLUE] = how
+    contact[2000, GREEN] = how & OBJECT
     verdict = judge(trial("indicate green", contact=contact), READINGS)
     assert (verdict.success, verdict.certain, verdict.end) == (False, True, 2000)
     assert verdict.reason == "another object was touched"
@@ -200,10 +202,91 @@ def test_bearings_run_from_minus_90_over_the_left_bound_without_a_jump():
     np.testing.assert_allclose(found[:, BLUE], 30.0, atol=1e-9)
 
 
-def test_fault_in_the_moment_of_success_is_a_failure():
+def test_a_fault_in_the_step_of_success_costs_nothing_unless_f1_is_cut_whole():
+    """As in the plane, which scores all of its last step of 0.1 s, 50 moments here."""
+    whole = replace(READINGS, collision_penalty="whole")
+    for moment, met in ((TEN_SECONDS - 1, True), (TEN_SECONDS - 50, True), (TEN_SECONDS - 51, False)):
+        contact = touching(GREEN, 0)
+        contact[moment, BLUE] = ARM
+        assert judge(trial("indicate green", contact=contact), READINGS).success == met
+        assert not judge(trial("indicate green", contact=contact), whole).success
+
+
+def test_objects_that_touch_one_another_beside_the_target_are_no_fault():
     contact = touching(GREEN, 0)
-    contact[TEN_SECONDS - 1, BLUE] = ARM
-    assert not judge(trial("indicate green", contact=contact), READINGS).success
+    contact[:, [BLUE, RED]] = OBJECT
+    assert judge(trial("indicate green", contact=contact), READINGS).success
+
+
+def seen_at(moments):
+    """S1 30 degrees beside green, but on it at these moments."""
+    alpha = np.full(12_750, 60.0)  # 25.5 s
+    alpha[moments] = 90.0
+    return alpha
+
+
+@pytest.mark.parametrize(
+    ("moments", "early", "never"),
+    [
+        (slice(0, 0), True, True),
+        (slice(0, 7000), True, True),  # ten seconds away afterwards, and away in the end
+        (slice(6000, None), True, False),  # away for ten seconds, but not in the end
+        (slice(4000, 8500), False, False),  # never ten seconds, as the plane's 25 s end at 12,500
+    ],
+)
+def test_ignore_that_nothing_ends_has_to_look_away_in_the_end_too(moments, early, never):
+    record = trial("ignore green", 12_750, alpha=seen_at(moments))
+    assert judge(record, READINGS).success == early
+    strict = replace(READINGS, ignore_stops="never")
+    verdict = judge(record, strict)
+    assert (verdict.success, verdict.certain) == (never, True)
+    # Until the end nothing is certain.
+    so_far = trial("ignore green", 12_000, alpha=seen_at(moments)[:12_000])
+    assert not judge(so_far, strict).certain
+
+
+def test_ignore_that_nothing_ends_is_decided_by_a_touch_of_another_object():
+    strict = replace(READINGS, ignore_stops="never")
+    for moment, met in ((6000, True), (4000, False)):
+        contact = touching(GREEN, 0, 12_750)
+        contact[moment, BLUE] = ARM
+        verdict = judge(trial("ignore green", 12_750, alpha=seen_at([]), contact=contact), strict)
+        assert (verdict.success, verdict.certain, verdict.end) == (met, True, moment)
+
+
+def test_strict_success_asks_for_a_straight_forearm_of_touch_and_move_only():
+    strict = replace(READINGS, success="f1_f2_f3")
+    contact = touching(GREEN, RIGHT_SIDE)
+    for beta, met in ((0.8, True), (1.0, False)):
+        orders = np.full((121, 2), beta)
+        assert judge(trial("indicate green", orders=orders), strict).success
+        record = trial("touch green", orders=orders, contact=contact)
+        assert judge(record, READINGS).success
+        assert judge(record, strict).success == met
+    # Straight at some time is enough if the best counts.
+    orders = np.full((121, 2), 30.0)
+    orders[40] = 0.0
+    record = trial("touch green", orders=orders, contact=contact)
+    assert not judge(record, strict).success
+    assert judge(record, strict).reason == "S2 was bent by 30.0 degrees"
+    assert judge(record, replace(strict, f3_time="best")).success
+
+
+def test_runs_may_be_counted_all_in_all():
+    """Twice six seconds on the object, twice 20 degrees on the way: not on end, but more than is asked."""
+    in_all = replace(READINGS, run_counting="cumulative")
+    alpha = np.full(12_500, 90.0)
+    alpha[3000:6000] = 70.0
+    pointing = trial("indicate green", 9000, alpha=alpha[:9000])
+    assert [judge(pointing, each).success for each in (READINGS, in_all)] == [False, True]
+    moved = pushed(BLUE, 40.0)
+    contact = touching(BLUE, RIGHT_SIDE, 1000)
+    contact[490:510] = 0
+    pushing = trial("move blue", 1000, contact=contact, **moved)
+    assert [judge(pushing, each).success for each in (READINGS, in_all)] == [False, True]
+    # A way back is taken off.
+    bearing = np.concatenate([np.linspace(30.0, 10.0, 500), np.linspace(10.0, 30.0, 500)])
+    assert arcs(np.ones(1000, bool), bearing, in_all=True)[[499, 999]] == pytest.approx([20.0, 0.0], abs=1e-9)
 
 
 @pytest.mark.parametrize("step_s", [0.001, 0.002, 0.004])

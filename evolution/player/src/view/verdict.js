@@ -2,7 +2,7 @@
 
 import { inView } from "../world/camera.js";
 import { NONE } from "../world/contact.js";
-import { IGNORE, INDICATE, MOVE, TOUCH, goal, scores, share } from "../world/judge.js";
+import { IGNORE, INDICATE, MOVE, TOUCH, full, scores, share } from "../world/judge.js";
 import { OBJECTS, neverMet, spoken } from "../world/words.js";
 import { DT, GOOD_STEPS_FOR_SUCCESS } from "../world/world.js";
 
@@ -37,7 +37,7 @@ export function verdict(world, state, first) {
 export function progress(world, state) {
   const { judged } = state;
   if (judged.done) return scores(world, state).success ? 1 : 0;
-  return Math.min(1, judged.good ? Math.abs(judged.run) / goal(world, judged.action) : 0);
+  return Math.min(1, Math.abs(judged.run) / full(world, judged.action));
 }
 
 function doing(action, object, turns) {
@@ -60,6 +60,8 @@ function reason(world, state) {
   const { judged } = state;
   const knocked = state.discs.findIndex((disc, k) => k !== judged.object && disc.side !== NONE && !judged.excused[k]);
   if (judged.collided && knocked >= 0) return `it ran into ${OBJECTS[knocked]}`;
-  if (share(world, judged) === 1.0) return "it did the action, but ended off the object";
-  return "time is up";
+  if (share(world, judged) < 1.0) return "time is up";
+  if (judged.action === IGNORE) return `it stayed away, but had ${OBJECTS[judged.object]} in view in the end`;
+  if (scores(world, state).f1 < 1.0) return "it did the action, but ended off the object";
+  return "it did the action, but with a bent forearm";
 }

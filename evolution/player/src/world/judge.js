@@ -51,7 +51,7 @@ export function goal(world, action) {
 }
 
 /** The run that earns the whole of F2. */
-function full(world, action) {
+export function full(world, action) {
   return action === MOVE ? world.moveAngle : GOOD_STEPS_FOR_SUCCESS;
 }
 
