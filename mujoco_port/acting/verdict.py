@@ -12,8 +12,8 @@ only: the one that was ordered.
                S1, seen from J1, or from S1's end where the camera is there
 
 As soon as the robot, or the target, touches another object the trial has failed, unless the goal is reached
-in the same step of 0.1 s. `ignore_stops`, `run_counting`, `success` and `collision_penalty` mean here what they
-mean in the plane.
+in the same step of 0.1 s. `ignore_stops`, `run_counting`, `success` and `collision_penalty` mean here what
+they mean in the plane.
 """
 
 from __future__ import annotations
@@ -158,7 +158,7 @@ def progress_of(record: PhysicalRecord, readings: Readings) -> tuple[NDArray[np.
     if record.instruction.action is ActionWord.MOVE:
         return arcs(good, bearings(record)[:, target], in_all=in_all), readings.move_angle
     if in_all:
-        return record.step_s * np.cumsum(good), GOOD_TIME_S
+        return (record.step_s * np.cumsum(good)).astype(np.float64), GOOD_TIME_S
     return lengths(good, record.step_s), GOOD_TIME_S
 
 
@@ -200,7 +200,7 @@ def arcs(
     """
     if in_all:
         moved = np.where(good & np.roll(good, 1), np.diff(bearing, prepend=bearing[:1]), 0.0)
-        return np.abs(np.cumsum(moved))
+        return np.abs(np.cumsum(moved)).astype(np.float64)
     index = np.arange(len(good))
     last_bad = np.maximum.accumulate(np.where(good, -1, index))
     return np.where(good, np.abs(bearing - bearing[np.maximum(last_bad, 0)]), 0.0)
