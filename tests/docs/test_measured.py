@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from arm2d import Instruction, draw_trials, record_trial
+from arm2d import Condition, Instruction, draw_trials, record_trial
 from arm2d.constants import ALPHA_MAX, ALPHA_MIN
 from evolution.runs.sources import find_agent
 from evolution.search.randomness import Purpose, generator
@@ -63,6 +63,37 @@ def test_closed_loops_are_what_their_trials_say():
         counts = [sum(row["physical"] == "1" for row in loops[name,]) for name in LOOPS]
         line = " | ".join(map(str, [len(loops["open",]), planar, *counts]))
         assert f"| `{agent}`, {instruction} | {line} |" in PHYSICS
+
+
+def test_lines_of_descent_are_what_their_skills_say():
+    page, article = ((DOCS / name).read_text(encoding="utf-8") for name in ("results.md", "article.md"))
+    never, experienced = 10**9, [str(each) for each in Condition.WITH_INDICATE.experienced]
+    before_seven = before_green = red_first = 0
+    lines = by(rows("lineages.csv"), "seed", "generation", "rank")
+    assert len(lines) == 10
+    for (seed, generation, rank), own in lines.items():
+        came = {
+            row["skill"]: never if row["first came"] == "never" else int(row["first came"]) for row in own
+        }
+        told = {row["skill"]: row["first came"] for row in own}
+        first = [skill for skill, when in came.items() if when == min(came.values())]
+        assert not any("S2 bent" in skill for skill in first)
+        bent = [f"on target, S2 bent, hearing {word}" for word in ("MOVE", "TOUCH", "INDICATE")]
+        seven = max(came[each] for each in experienced)
+        cells = [
+            seed, f"{generation}, {rank}", f"{' and '.join(first)}, {min(came.values())}",
+            ", ".join(told[each] for each in bent), str(seven), f"{told['MOVE Blue']}, {told['TOUCH Green']}",
+        ]  # fmt: skip
+        assert f"| {' | '.join(cells)} |" in page
+        assert came["MOVE Blue"] < came["TOUCH Green"]
+        pointing = max(came[each] for each in bent)
+        before_seven += pointing < seven
+        before_green += pointing < came["TOUCH Green"]
+        red_first += "MOVE Red" in first
+    assert (red_first, before_seven, before_green) == (7, 7, 8)
+    assert "in seven lines S1 finds" in page
+    assert "and in eight before TOUCH Green" in page
+    assert "before TOUCH Green is understood in 8 |" in article
 
 
 def test_head_held_and_turning_are_what_their_trials_say():
