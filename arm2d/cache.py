@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
 import stat
 import tempfile
+import time
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -26,6 +28,7 @@ N_SEAL: Final = SEAL().digest_size
 PROBE: Final = bytes(64 * 1024)
 # What can change a number: code, and the descriptions of scenes. A template or a picture cannot.
 SOURCES: Final = (".py", ".xml")
+KEPT_DAYS: Final = 30
 
 
 class CacheWarning(RuntimeWarning):
@@ -133,11 +136,25 @@ def _own_folder(base: Path) -> Path:
     for above in base.parents:
         if _is_open_to_others(above.stat()):
             raise OSError(f"{base} is not used, since others can change {above}")
+    is_new = not folder.exists()
     for own in (base, folder):
         _told(lambda own=own: own.mkdir(mode=0o700, exist_ok=True), own)
         _check_own(own)
     _told(lambda: _try_to_write(folder), folder)
+    _told(lambda: os.utime(folder), folder)  # used today
+    if is_new:
+        _forget_unused(base)
     return folder
+
+
+def _forget_unused(base: Path) -> None:
+    """Remove what other versions compiled that were not started for `KEPT_DAYS`."""
+    for folder in base.glob("kernel-*"):
+        try:
+            if time.time() - folder.lstat().st_mtime > KEPT_DAYS * 86_400 and not folder.is_symlink():
+                shutil.rmtree(folder, ignore_errors=True)
+        except OSError:
+            continue  # somebody else was sooner
 
 
 def _told(attempt: Callable[[], None], path: Path) -> None:

@@ -15,7 +15,7 @@ from evolution.runs.history import check_array, check_range
 from evolution.runs.recorded import recorded_histories
 from evolution.runs.storage import make_folder
 from evolution.search.config import RunConfig
-from evolution.search.scoring import trials_of
+from evolution.search.scoring import first_genotypes_trials
 
 FILE: Final = "solved.npz"
 
@@ -84,5 +84,5 @@ def file_path(folder: RunFolder) -> Path:
 
 
 def _most_carried_out(genotypes: NDArray[np.float64], config: RunConfig, generation: int) -> int:
-    trials, _ = trials_of(config, generation)
+    trials = first_genotypes_trials(config, generation)
     return int(run_trials(genotypes, trials, config.readings).success.sum(axis=1).max())

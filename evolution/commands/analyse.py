@@ -55,7 +55,7 @@ class PostEvaluate:
                         tests.instructions(run, lambda done, _, bar=first: bars.update(bar, completed=done))
                         tests.transitions(run, lambda done, _, bar=second: bars.update(bar, completed=done))
                         tests.solved(run)
-                except ValueError as error:
+                except (ValueError, OSError) as error:
                     damaged.append(str(error))
         if damaged or experiment.unreadable:
             raise ValueError("; ".join([*experiment.unreadable, *damaged]))

@@ -41,7 +41,7 @@ def observe_classes(experiment: Path, sampling: Sampling, output: Path | None) -
                 raise ValueError(reason)
             with locked(run.path):
                 observed.append((run, observe(run, sampling)))
-        except ValueError as error:
+        except (ValueError, OSError) as error:
             console.print(f"{name_of(run)}: left out, {error}", highlight=False, soft_wrap=True)
     if not observed:
         raise ValueError(f"no run in {experiment} can be observed, for the reasons above")

@@ -55,6 +55,7 @@ class ExperimentCommand:
         from rich.console import Console
 
         from evolution.experiments.device.jobs import device_shares
+        from evolution.experiments.jobs import tell_failures
         from evolution.experiments.plan_runner import plan_lines, processes, run_plan_shown
         from evolution.runs.interrupt import StopRequest
         from evolution.runs.lock import locked
@@ -79,8 +80,7 @@ class ExperimentCommand:
         if stop.requested:
             print("stopped; go on with the same command")
             return INTERRUPTED
-        for failure in failures:
-            print(f"{failure.job.name}, given up while {failure.job.stage}: {failure.sentence}")
+        tell_failures(failures)
         done = sum(each.done for each in plan.standings())
         print(f"{done} of {len(plan.configs)} runs are done: {plan.folder}")
         return BAD_INPUT if failures else 0

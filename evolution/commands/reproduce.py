@@ -73,6 +73,7 @@ class Reproduce(FromPreset):
         from rich.console import Console
 
         from evolution.experiments.device.jobs import device_shares
+        from evolution.experiments.jobs import tell_failures
         from evolution.experiments.plan_runner import processes, run_plan_shown
         from evolution.runs.interrupt import StopRequest
         from evolution.runs.lock import locked
@@ -86,21 +87,24 @@ class Reproduce(FromPreset):
             return self.cluster.show_script(plan.folder)
         with self.cluster.opened(plan.folder, console) as elsewhere:
             shares = device_shares(self.device, self.jobs, elsewhere.threads() if elsewhere else None)
+            if shares:
+                shares.check(plan.configs)
             make_folder(plan.folder)
             with locked(plan.folder):
                 with StopRequest() as stop:
                     at_once_there = elsewhere.threads() if elsewhere else at_once
                     failures = run_plan_shown(plan, at_once_there, stop, console, elsewhere, shares=shares)
+                    tell_failures(failures)
                     results = None if stop.requested else _analyse(plan.folder)
                     if results and not stop.requested:
-                        failures += _look_at_agents(results, plan.folder, at_once, stop)
+                        unseen = _look_at_agents(results, plan.folder, at_once, stop)
+                        tell_failures(unseen)
+                        failures += unseen
                     if results is None or stop.requested:
                         print("stopped; go on with the same command")
                         return INTERRUPTED
                 _report(results, plan.folder)
         _tell_times(plan.folder, time.monotonic() - began)
-        for failure in failures:
-            print(f"{failure.job.name}, given up while {failure.job.stage}: {failure.sentence}")
         return BAD_INPUT if failures else 0
 
 

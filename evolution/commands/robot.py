@@ -44,13 +44,14 @@ class Live(AgentCommand):
     def run(self) -> int:
         """Serve the page until Ctrl-C."""
         from arm2d import Trials, draw_trials
+        from arm2d.tasks.task import papers_condition
         from arm2d.trials import area_index
         from evolution.search.randomness import Purpose, generator
         from mujoco_port.live.actor import Actor
         from mujoco_port.live.live import show_live
 
         source = self.find_agent()
-        instructions = source.condition.instructions
+        instructions = papers_condition(source.condition, "the live page").instructions
 
         def draw(area: str, seed: int) -> Trials:  # as `wordarm port` does
             trials = draw_trials([instructions[0]], 1, source.readings, generator(seed, Purpose.RECORDING))

@@ -95,6 +95,7 @@ class StudyCommand:
     def run(self) -> int:
         """Study; the exit code is 130 if it was stopped, 2 if a run was given up or nothing is measured."""
         from evolution.experiments.device.jobs import device_shares
+        from evolution.experiments.jobs import tell_failures
         from evolution.experiments.plan_runner import processes
         from evolution.runs.interrupt import StopRequest
         from evolution.runs.lock import locked
@@ -115,12 +116,11 @@ class StudyCommand:
             make_folder(plan.folder)
             with locked(plan.folder), StopRequest() as stop:
                 failures = _evolve_and_measure(plan, at_once, stop, shares)
+                tell_failures(failures)
                 if stop.requested:
                     print("stopped; go on with the same command")
                     return INTERRUPTED
         _write(plan, part, self.results or plan.folder / "results")
-        for failure in failures:
-            print(f"{failure.job.name}, given up while {failure.job.stage}: {failure.sentence}")
         return BAD_INPUT if failures else 0
 
     @property
@@ -158,6 +158,7 @@ class StudyCommand:
     def _carry_out(self, study: DeclaredStudy | BeyondStudy, part: DeclaredPart) -> int:
         """Evolve and measure what has no row yet, and write what all rows say."""
         from evolution.experiments.device.jobs import device_shares
+        from evolution.experiments.jobs import tell_failures
         from evolution.experiments.plan_runner import processes
         from evolution.runs.interrupt import StopRequest
         from evolution.study.declared.plan import carry_out
@@ -171,6 +172,7 @@ class StudyCommand:
             with StopRequest() as stop:
                 at_once, folder = processes(self.jobs), rows.path.parent
                 failures = carry_out(rows, folder, at_once, stop, known.values(), shares)
+            tell_failures(failures)
             if stop.requested:
                 print("stopped; go on with the same command")
                 return INTERRUPTED
@@ -178,8 +180,6 @@ class StudyCommand:
         runs: list[Any] = [found[config] for config in part.configs if config in found]
         paths, notes = study.write(part, runs, self.results or rows.path.parent / "results")
         print(*paths, *notes, f"{len(runs)} of {len(part.configs)} runs are measured so far", sep="\n")
-        for failure in failures:
-            print(f"{failure.job.name}, given up while {failure.job.stage}: {failure.sentence}")
         return BAD_INPUT if failures else 0
 
     def _known(self, rows: RowFile[Any]) -> dict[RunConfig, Any]:

@@ -30,6 +30,16 @@ class Failure:
     job: Job
     sentence: str
 
+    def __str__(self) -> str:
+        """As the user is told."""
+        return f"{self.job.name}, given up while {self.job.stage}: {self.sentence}"
+
+
+def tell_failures(failures: Iterable[Failure]) -> None:
+    """Print a line for each, at once: what is made of the other runs may end in an error of its own."""
+    for failure in failures:
+        print(failure, flush=True)
+
 
 @dataclass(frozen=True)
 class Overseer:

@@ -40,6 +40,11 @@ def bundle(results: Results) -> dict[str, bytes]:
     for run in results.analysed_runs:
         folder = results.conditions[run.condition].runs[run.index].path
         name = f"runs/{run.condition}/seed-{run.seed:04d}/{CONFIG}"
+        if name in files:
+            raise ValueError(
+                f"{folder} is another run of {run.condition} with seed {run.seed}, whose settings differ; an "
+                "archive holds one of them: move the others out of the experiment"
+            )
         files[name] = read_file(folder / CONFIG, LARGEST_FILE)
     return {**files, "README.md": read_me(results).encode(), LICENCE: licence()}
 

@@ -37,7 +37,7 @@ def standing_of_best(found: ConditionResults) -> str:
 def departures_in_size(results: Results) -> list[str]:
     """Where an experiment is smaller or larger than the paper's, so that numbers cannot be compared."""
     sentences = []
-    settings = {run.config.settings for run in results.experiment.all_runs}
+    settings = dict.fromkeys(run.config.settings for run in results.experiment.all_runs)
     paper = Settings().to_mapping()
     for own in settings:
         sentences += [

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, check_genotypes, draw_trials, run_trials
-from arm2d.tasks.task import AnyTask
+from arm2d.tasks.task import AnyTask, task_of
 from evolution.search.algorithm import mean_in_order
 from evolution.search.config import RunConfig
 from evolution.search.population import Population
@@ -49,6 +49,15 @@ def score_population(population: Population, config: RunConfig) -> NDArray[np.fl
     trials, each_own = trials_of(config, population.generation, len(population.genotypes))
     scores = run_trials(population.genotypes, trials, config.readings, each_own=each_own)
     return mean_in_order(scores.fitness)
+
+
+def first_genotypes_trials(config: RunConfig, generation: int) -> Trials:
+    """The trials in which the first genotype of a generation was scored."""
+    if task_of(config.condition).places != "dealt" or config.readings.starts_shared != "genotype":
+        return trials_of(config, generation)[0]
+    # Dealt at once, the colours of its trials depend on how many genotypes there are.
+    trials, _ = trials_of(config, generation, config.settings.population)
+    return trials[: len(trials) // config.settings.population]
 
 
 def trials_of(config: RunConfig, generation: int, n_genotypes: int = 1) -> tuple[Trials, bool]:

@@ -6,6 +6,7 @@ Every trial is one row of a file, written as soon as it is known; a file that is
 from __future__ import annotations
 
 import csv
+import fcntl
 import hashlib
 import multiprocessing
 import os
@@ -22,7 +23,7 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
 from arm2d.cache import sources_digest
-from arm2d.files import handle_to_append, read_file, write_whole
+from arm2d.files import handle_to_append, read_file
 from arm2d.records import brief
 from arm2d.trials import START_AREAS
 from models.robots import PlaneMap, Robot, get_robot
@@ -96,6 +97,11 @@ class Job:
     area: str
     start: int
 
+    @property
+    def name(self) -> tuple[str, str, str, str, int]:
+        """What tells it from all others, as the file has it."""
+        return self.agent.name, self.loop, str(self.trial.instructions[0]), self.area, self.start
+
 
 def jobs(agents: Sequence[Candidate], loops: Sequence[Loop], n_starts: int, seed: int) -> list[Job]:
     """All instructions from `n_starts` fresh starts in each area, the same for every agent and loop."""
@@ -127,12 +133,14 @@ def outcomes(
         OSError: If the file cannot be written, or a process was killed.
     """
     mark = MARK + fingerprint(listed, robot, head)
-    known = _read(path, mark) if path.exists() else []
-    yield from known
-    left = listed[len(known) :]
-    if not left:
+    if path.exists() and len(known := _read(path, mark, listed)) == len(listed):
+        yield from known
         return
     with os.fdopen(handle_to_append(path), "a", encoding="utf-8", newline="") as file:
+        _hold(file.fileno(), path)
+        known = _read(path, mark, listed)
+        yield from known
+        left = listed[len(known) :]
         writer = csv.writer(file, lineterminator="\n")
         if not known and file.tell() == 0:
             file.write(mark + "\n")
@@ -185,8 +193,23 @@ def fingerprint(listed: Sequence[Job], robot: str, head: Head = "turns") -> str:
     return digest.hexdigest()[:16]
 
 
-def _read(path: Path, mark: str) -> list[Outcome]:
-    """The outcomes in a file of ours; a last line that was not written to its end is cut off."""
+def _hold(descriptor: int, path: Path) -> None:
+    """Keep other commands from writing to the same file; the kernel lets go when it is closed."""
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise ValueError(
+            f"another command writes to {path}; wait until it has ended, or choose another file"
+        ) from None
+    except OSError:
+        return  # a file system without locks
+
+
+def _read(path: Path, mark: str, listed: Sequence[Job]) -> list[Outcome]:
+    """The outcomes of the first of these jobs in a file of ours.
+
+    A last line that was not written to its end is cut off.
+    """
     try:
         whole = read_file(path, LARGEST).decode()
     except ValueError as error:
@@ -199,12 +222,16 @@ def _read(path: Path, mark: str) -> list[Outcome]:
         )
     lines = whole[: whole.rfind("\n") + 1]
     if lines != whole:
-        write_whole(path, lines.encode())
+        os.truncate(path, len(lines.encode()))
     rows = list(csv.reader(lines.splitlines()[2:]))
     try:
-        return [_outcome(row) for row in rows]
+        found = [_outcome(row) for row in rows]
     except ValueError as error:
         raise ValueError(f"{path} has a row that is no outcome ({error}); choose another file") from None
+    told = [(each.agent, each.loop, each.instruction, each.area, each.start) for each in found]
+    if told != [job.name for job in listed[: len(told)]]:
+        raise ValueError(f"{path} holds other trials than these, or some of them twice; choose another file")
+    return found
 
 
 def _outcome(row: Sequence[str]) -> Outcome:

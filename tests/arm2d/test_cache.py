@@ -8,6 +8,7 @@ import stat
 import subprocess
 import sys
 import tempfile
+import time
 import warnings
 from pathlib import Path
 
@@ -71,6 +72,21 @@ def test_folders_are_the_users_alone_whatever_the_umask(places):
     assert place.folder.parent == places[0] / "wordarm"
     assert mode(place.folder) == mode(place.folder.parent) == 0o700
     assert place.note == ""
+
+
+def test_what_other_versions_compiled_is_forgotten_a_month_after_its_last_use(places):
+    base = places[0] / "wordarm"
+    day = 86_400
+    for name, days in (("kernel-old", 31), ("kernel-recent", 29), ("mine", 400)):
+        (base / name).mkdir(parents=True)
+        (base / name / "code").write_bytes(b"compiled")
+        os.utime(base / name, (time.time() - days * day,) * 2)
+    base.chmod(0o700)
+    ours = find_place().folder
+    assert {each.name for each in base.iterdir()} == {"kernel-recent", "mine", ours.name}
+    os.utime(ours, (time.time() - 400 * day,) * 2)
+    assert find_place().folder == ours  # being used, it is dated anew
+    assert time.time() - ours.stat().st_mtime < day
 
 
 def test_a_folder_that_others_can_read_is_closed(places):

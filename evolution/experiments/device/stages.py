@@ -106,7 +106,7 @@ def one_by_one(folders: Sequence[str], work: Callable[[RunFolder], None]) -> int
         except DeviceLostError as error:
             print(error, file=sys.stderr)
             return DEVICE_LOST
-        except ValueError as error:
+        except (ValueError, OSError) as error:
             troubles.append(str(error))
     if troubles:
         raise ValueError("; ".join(troubles))

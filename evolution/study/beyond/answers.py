@@ -192,6 +192,42 @@ def verdict_of(group: Group, outcome: Outcome, found: Iterable[Comparison]) -> V
     return own.pop() if len(own) == 1 else "undecided"
 
 
+def shared_words(group: Group, paper: Group) -> tuple[Instruction, ...]:
+    """What both hold out: over these words alone understanding can be compared."""
+    return tuple(word for word in group.held_out if word in paper.held_out)
+
+
+# What a change does, of these outcomes.
+SUBJECTS: Final = {"evolution": (SOLVED, PLATEAU), "understanding": (UNDERSTOOD,)}
+
+
+def effects_of(cell: Cell, groups: Iterable[Group], found: Sequence[Comparison]) -> dict[str, str]:
+    """Whether a change helps, hinders or is undecided as to evolution and as to understanding.
+
+    It helps (hinders) if an outcome says more (less) in at least one condition and none says the contrary.
+    """
+    own = [group for group in groups if group.cell == cell]
+    told = {}
+    for subject, outcomes in SUBJECTS.items():
+        said = {verdict_of(group, outcome, found) for group in own for outcome in outcomes}
+        shown = said - {"undecided"}
+        told[subject] = {"more": "helps", "less": "hinders"}[shown.pop()] if len(shown) == 1 else "undecided"
+    return told
+
+
+def sentences(groups: Sequence[Group], found: Sequence[Comparison]) -> list[str]:
+    """Every verdict with its comparisons, and what each change does."""
+    told = []
+    for group in groups:
+        for outcome in TESTED:
+            if verdict_of(group, outcome, found) != "undecided":
+                told += [each.sentence for each in found if (each.group, each.outcome) == (group, outcome)]
+    for cell in dict.fromkeys(group.cell for group in groups if group.cell != PAPER):
+        shown = {s: effect for s, effect in effects_of(cell, groups, found).items() if effect != "undecided"}
+        told += [f"{cell.name} {effect} {subject}" for subject, effect in shown.items()]
+    return told
+
+
 def _is_base(paper: Group, group: Group) -> bool:
     """Whether a group is compared with this one: both have the same third action, or it has both."""
     third = task_of(group.task).third
@@ -199,7 +235,7 @@ def _is_base(paper: Group, group: Group) -> bool:
 
 
 def _compare(group: Group, paper: Group, outcome: Outcome) -> Comparison:
-    words = [word for word in group.held_out if word in paper.held_out]
+    words = shared_words(group, paper)
     first, second = outcome.values(group.runs, words), outcome.values(paper.runs, words)
     ways = declared_ways(len(first) + len(second), len(first))
     return Comparison(

@@ -10,12 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from arm2d import Condition
+from arm2d import Condition, Instruction
 from arm2d.drawing import FULL, INK, SMALL, STYLE, look
 from arm2d.tasks.task import task_of
 from evolution.figures.page import CONDITION_COLOURS, FAINT, SERIES, headed
 from evolution.results.wording import TITLES
-from evolution.study.beyond.answers import OUTCOMES, Comparison, Group, Outcome, verdict_of
+from evolution.study.beyond.answers import OUTCOMES, UNDERSTOOD, Comparison, Group, Outcome, verdict_of
 from evolution.study.beyond.cells import CELLS, PAPER
 
 # By the third action: where in its row a group is drawn, in which colour, and what that is called.
@@ -44,6 +44,7 @@ def cells_figure(groups: Sequence[Group], found: Sequence[Comparison]) -> Figure
         for axes, outcome in zip(panels, OUTCOMES, strict=True):
             for group in groups:
                 _draw(axes, group, outcome, cells.index(group.cell), found)
+                _draw_paper(axes, group, outcome, cells.index(group.cell), groups)
             _finish(axes, outcome, groups)
         panels[0].set_yticks(range(len(cells)), [cell.title for cell in cells])
         for label, cell in zip(panels[0].get_yticklabels(), cells, strict=True):
@@ -54,14 +55,38 @@ def cells_figure(groups: Sequence[Group], found: Sequence[Comparison]) -> Figure
     return figure
 
 
+def drawn_words(group: Group, outcome: Outcome) -> tuple[Instruction, ...]:
+    """The held-out instructions over which a group is drawn: of understanding, those it is compared by."""
+    papers = task_of(Condition.WITH_INDICATE).held_out
+    return tuple(word for word in group.held_out if word in papers or outcome != UNDERSTOOD)
+
+
+def _draw_paper(axes: Axes, group: Group, outcome: Outcome, row: int, groups: Sequence[Group]) -> None:
+    """The mean of the paper's task: through all rows, and once more where it is of fewer instructions."""
+    offset, colour, _ = LOOKS[task_of(group.task).third]
+    words = drawn_words(group, outcome)
+    if group.cell == PAPER:
+        mean = outcome.values(group.runs, words).mean()
+        axes.axvline(100 * mean, color=colour, lw=0.6, zorder=1)
+        return
+    if outcome != UNDERSTOOD:
+        return
+    third = task_of(group.task).third
+    papers = [each for each in groups if each.cell == PAPER and task_of(each.task).third == third]
+    for paper in papers:
+        if len(words) < len(paper.held_out):
+            mean = outcome.values(paper.runs, words).mean()
+            ends = [row + offset - 0.17, row + offset + 0.17]
+            axes.plot([100 * mean] * 2, ends, color=colour, lw=1.6, ls=(0, (1, 1)), zorder=1)
+
+
 def _draw(axes: Axes, group: Group, outcome: Outcome, row: int, found: Sequence[Comparison]) -> None:
     """One group's runs, mean and interval."""
     offset, colour, _ = LOOKS[task_of(group.task).third]
-    own, y = group.estimate(outcome), row + offset
-    if group.cell == PAPER:
-        axes.axvline(100 * own.value, color=colour, lw=0.6, zorder=1)
+    words = drawn_words(group, outcome)
+    own, y = outcome.estimate(group.runs, words), row + offset
     if not outcome.counts_runs:
-        values = 100 * outcome.values(group.runs, group.held_out)
+        values = 100 * outcome.values(group.runs, words)
         spread = np.linspace(-SPREAD, SPREAD, len(values)) if len(values) > 1 else np.zeros(1)
         axes.plot(values, y + spread, "o", ms=1.8, color=colour, alpha=0.4, mew=0, zorder=2)
     axes.plot([100 * own.low, 100 * own.high], [y, y], color=colour, lw=1.2, zorder=3)
@@ -72,7 +97,7 @@ def _draw(axes: Axes, group: Group, outcome: Outcome, row: int, found: Sequence[
 
 def _finish(axes: Axes, outcome: Outcome, groups: Sequence[Group]) -> None:
     axes.set_title(outcome.title, fontsize=SMALL)
-    lowest = min(100 * outcome.values(group.runs, group.held_out).min() for group in groups)
+    lowest = min(100 * outcome.values(group.runs, drawn_words(group, outcome)).min() for group in groups)
     # Only plateaus never come near 0.
     axes.set_xlim(PERCENT[0] if lowest < 20 else lowest - 4, PERCENT[1])
     axes.tick_params(axis="y", length=0)
@@ -93,7 +118,9 @@ def _handles(groups: Sequence[Group]) -> list[Line2D]:
         Line2D([], [], color=INK, ls="", **mark, label="differs from the paper's task: p < 0.05 after Holm"),
         Line2D([], [], color=INK, ls="", mfc="white", **mark, label="not shown to differ"),
         Line2D([], [], color=INK, ls="", marker="o", ms=1.8, alpha=0.4, mew=0, label="a run"),
-        Line2D([], [], color=INK, lw=0.6, label="mean of the paper's task"),
+        Line2D(
+            [], [], color=INK, lw=0.6, label="mean of the paper's task (dotted: of the same instructions)"
+        ),
     ]
 
 

@@ -11,7 +11,15 @@ import numpy as np
 from evolution.figures.page import save_figure
 from evolution.report.columns import PlainTable
 from evolution.runs.storage import make_folder, write_atomically
-from evolution.study.beyond.answers import OUTCOMES, Comparison, Group, Outcome, comparisons, groups_of
+from evolution.study.beyond.answers import (
+    OUTCOMES,
+    Comparison,
+    Group,
+    Outcome,
+    comparisons,
+    groups_of,
+    sentences,
+)
 from evolution.study.beyond.cells import NAME
 from evolution.study.beyond.figure import cells_figure
 from evolution.study.beyond.rows import CellRun, write_rows
@@ -37,8 +45,7 @@ def write_results(runs: Sequence[CellRun], folder: Path) -> tuple[list[Path], li
     write_atomically(paths[1], cell_table(groups).to_csv().encode())
     write_atomically(paths[2], comparison_table(found).to_csv().encode())
     paths += save_figure(cells_figure(groups, found), folder / NAME)
-    decided = [each.sentence for each in found if each.verdict != "undecided"]
-    return paths, decided or [NOTHING]
+    return paths, sentences(groups, found) or [NOTHING]
 
 
 def cell_table(groups: Iterable[Group]) -> PlainTable[Group]:

@@ -21,6 +21,7 @@ from evolution.experiments.plan import Plan
 from evolution.experiments.stage_times import FILE, stage_times
 from evolution.experiments.standing import Pace, Standing, is_held, standing_of, time_left
 from evolution.runs.lock import in_use, locked
+from evolution.runs.run import Watcher, evolve
 from evolution.search.config import RunConfig
 from evolution.search.settings import Settings
 from evolution.trust.torture import Torture, torture
@@ -112,6 +113,23 @@ def test_status_tells_the_same_from_another_terminal(reproduced, capsys):
     assert re.search(r"with-ignore, seed 1 +done +130 of 130 +\d\.\d{3} +100 %", output)
 
 
+def test_why_runs_were_given_up_is_told_though_nothing_can_be_analysed(tmp_path, capsys):
+    """Each has a part that is cut short."""
+    for condition in Condition:
+        path = tmp_path / condition / "seed-0001"
+        stop = iter([False] * 110 + [True] * 2)
+        settings = Settings(population=10, elites=2, parents=5, generations=130)
+        assert evolve(path, RunConfig(condition, 1, settings), Watcher(wants_stop=stop.__next__)) == 110
+        (part,) = path.glob("parts/*")
+        part.write_bytes(part.read_bytes()[:-9])
+    assert main(["reproduce", *FLAGS, f"--output={tmp_path}"]) == 2
+    said = capsys.readouterr()
+    for condition in Condition:
+        assert f"{condition}, seed 1, given up while evolving: " in said.out
+        assert f"wordarm verify {tmp_path / condition / 'seed-0001'} --repair" in said.out
+    assert "has no run that can be analysed" in said.err
+
+
 @pytest.mark.parametrize("condition", Condition)
 def test_the_job_of_a_run_starts_exactly_that_run(condition, tmp_path):
     readings = Readings(sector_centres=(45.0, 90.0, 135.0), sector_half_width=3.0, mutation_sd=0.1 + 0.2)
@@ -140,6 +158,10 @@ def test_a_preset_is_the_start_of_its_readings():
         (["--jobs=0"], "asked for 0 processes at a time; there must be at least 1"),
         (["--generations=0"], "setting generations = 0 must lie in [1, 1000000]"),
         (["--readings.object-radius=20"], "reading object_radius = 20 must lie in"),
+        (
+            ["--inter-neurons=5", "--device=warp-cpu"],
+            "a device runs the paper's networks of three inter-neurons, not of 5",
+        ),
         (["--preset=mine"], f"unknown preset of readings 'mine'; there are {', '.join(PRESETS)}"),
         (["--output={file}"], "cannot be made: it is a file; choose another folder"),
     ],

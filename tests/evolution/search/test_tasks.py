@@ -19,6 +19,7 @@ from evolution.runs.run import Watcher, evolve
 from evolution.runs.sources import find_agent
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import evaluate
+from evolution.search.scoring import first_genotypes_trials, trials_of
 from evolution.search.settings import Settings
 from tests.evolution.small_runs import SMALL, contents
 
@@ -112,7 +113,21 @@ def test_robot_counts_page_and_gallery_refuse_it_too(finished, tmp_path, capsys)
             ask()
     assert main(["port", str(finished), "all", f"--output={tmp_path / 'all.mp4'}"]) == 2
     assert "the gallery of nine is made for the paper's two conditions" in capsys.readouterr().err
+    assert main(["live", str(finished), "--port=1"]) == 2
+    assert "the live page is made for the paper's two conditions" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+def test_the_first_genotypes_trials_are_those_it_was_scored_in_though_places_are_dealt():
+    """All genotypes' trials are dealt at once, which changes the colours of the first one's."""
+    for starts_shared in ("genotype", "generation"):
+        config = replace(CONFIG, readings=replace(CONFIG.readings, starts_shared=starts_shared))
+        trials = first_genotypes_trials(config, 3)
+        scored, _ = trials_of(config, 3, config.settings.population)
+        n = len(TASK.experienced) * 2 * config.settings.trials_per_area
+        assert len(trials) == n
+        for name in ("alpha", "discs", "actions", "objects"):
+            np.testing.assert_array_equal(getattr(trials, name), getattr(scored, name)[:n])
 
 
 def test_a_fitness_is_a_mean_over_what_is_met(finished):

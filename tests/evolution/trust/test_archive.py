@@ -3,6 +3,7 @@
 import gzip
 import hashlib
 import io
+import shutil
 import subprocess
 import tarfile
 
@@ -183,6 +184,21 @@ def experiment(tmp_path_factory):
         post_evaluate(RunFolder.open(path))
         run_transition_test(RunFolder.open(path))
     return home
+
+
+def test_two_runs_that_would_be_one_file_of_an_archive_are_refused(experiment, tmp_path, capsys):
+    """Condition and seed are the same, the settings are not."""
+    folder = tmp_path / "both"
+    shutil.copytree(experiment, folder)
+    other = folder / "other" / "seed-0001"
+    settings = Settings(population=12, elites=2, parents=5, generations=6)
+    evolve(other, RunConfig(Condition.WITH_INDICATE, 1, settings))
+    post_evaluate(RunFolder.open(other))
+    run_transition_test(RunFolder.open(other))
+    path = tmp_path / "kept.tar.gz"
+    assert main(["analyse", str(folder), f"--output={tmp_path / 'out'}", f"--archive={path}"]) == 2
+    assert "another run of with-indicate with seed 1, whose settings differ" in capsys.readouterr().err
+    assert not path.exists()
 
 
 @pytest.mark.slow

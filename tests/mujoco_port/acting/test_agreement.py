@@ -53,6 +53,24 @@ def test_file_that_was_cut_short_is_continued_to_the_same_bytes(complete, listed
     assert cut.read_bytes() == whole
 
 
+def test_two_commands_do_not_write_to_one_file(complete, listed, tmp_path):
+    """The second is refused; what the first writes is whole, and a file with trials twice is not believed."""
+    rows, path = complete
+    whole, shared = path.read_bytes(), tmp_path / "shared.csv"
+    first = outcomes(listed, "icub", shared, processes=1)
+    begun = [next(first)]
+    with pytest.raises(ValueError, match=r"another command writes to .*shared\.csv; wait until it has ended"):
+        next(outcomes(listed, "icub", shared, processes=1))
+    assert begun + list(first) == rows
+    assert shared.read_bytes() == whole
+    lines = whole.splitlines(keepends=True)
+    for doubled in (whole + lines[-1], b"".join([*lines[:3], *lines[2:4]])):
+        shared.write_bytes(doubled)
+        with pytest.raises(ValueError, match="holds other trials than these, or some of them twice"):
+            list(outcomes(listed, "icub", shared, processes=1))
+        assert shared.read_bytes() == doubled
+
+
 def test_file_of_other_trials_is_refused_and_left_alone(complete, evolved_agent, tmp_path):
     _, path = complete
     other = jobs(

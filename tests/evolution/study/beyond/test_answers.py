@@ -17,7 +17,9 @@ from evolution.study.beyond.answers import (
     TESTED,
     UNDERSTOOD,
     comparisons,
+    effects_of,
     groups_of,
+    sentences,
     verdict_of,
 )
 from evolution.study.beyond.cells import BY_NAME, CELLS
@@ -159,6 +161,31 @@ def one_cell(level, paper, name="twelve"):
 def test_twelve_instructions_differ_if_they_do_from_both_conditions(level, paper, verdict):
     groups = groups_of(one_cell(level, paper))
     assert verdict_of(group_of(groups, "twelve", "both"), PLATEAU, comparisons(groups)) == verdict
+
+
+@pytest.mark.parametrize(
+    ("level", "paper", "said"),
+    [(0.9, (0.7, 0.8), ["twelve helps evolution"]), (0.6, (0.7, 0.8), ["twelve hinders evolution"]),
+     (0.75, (0.7, 0.8), []), (0.8, (0.7, 0.8), [])],
+)  # fmt: skip
+def test_what_is_said_of_twelve_instructions_is_said_by_both_comparisons_or_not_at_all(level, paper, said):
+    groups = groups_of(one_cell(level, paper))
+    found = comparisons(groups)
+    told = sentences(groups, found)
+    assert told[2:] == said
+    assert [line.split(": ")[0] for line in told[:2]] == (
+        ["twelve, with-indicate", "twelve, with-ignore"] if said else []
+    )
+
+
+def test_a_change_helps_or_hinders_if_one_condition_says_so_and_none_the_contrary(groups, found):
+    dealt, cells = BY_NAME["dealt"], {group.cell.name: group.cell for group in groups}
+    assert effects_of(dealt, groups, found)["evolution"] == "hinders"
+    assert "dealt hinders evolution" in sentences(groups, found)
+    own = [each for each in found if each.group.cell == dealt and each.outcome == PLATEAU]
+    turned = replace(own[0], difference=replace(own[0].difference, value=-own[0].difference.value))
+    contrary = [turned if each is own[0] else each for each in found]
+    assert effects_of(cells["dealt"], groups, contrary)["evolution"] == "undecided"
 
 
 def test_cells_of_one_run_are_told_but_not_compared():

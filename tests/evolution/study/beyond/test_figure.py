@@ -5,9 +5,9 @@ import pytest
 from matplotlib.colors import to_hex
 
 from evolution.figures.page import CONDITION_COLOURS, SERIES
-from evolution.study.beyond.answers import OUTCOMES, comparisons, groups_of, verdict_of
+from evolution.study.beyond.answers import OUTCOMES, UNDERSTOOD, comparisons, groups_of, verdict_of
 from evolution.study.beyond.cells import CELLS
-from evolution.study.beyond.figure import LOOKS, cells_figure
+from evolution.study.beyond.figure import LOOKS, cells_figure, drawn_words
 from tests.evolution.study.beyond.made_up import SEEDS, made_study
 
 
@@ -49,7 +49,7 @@ def test_conditions_have_the_project_s_colours_and_lie_side_by_side():
 def test_means_and_intervals_stand_at_their_numbers(panels, groups, found):
     for axes, outcome in zip(panels, OUTCOMES, strict=True):
         for group in groups:
-            own = group.estimate(outcome)
+            own = outcome.estimate(group.runs, drawn_words(group, outcome))
             flat, (mark,) = lines_of(axes, group)
             assert mark.get_xdata()[0] == pytest.approx(100 * own.value)
             ends = [line.get_xdata() for line in flat if len(line.get_xdata()) == 2]
@@ -76,7 +76,7 @@ def test_every_run_is_a_dot_where_runs_are_not_counted(panels, groups):
             dots = [line for line in flat if line.get_marker() == "o" and len(line.get_xdata()) == len(SEEDS)]
             assert len(dots) == (0 if outcome.counts_runs else 1)
             for line in dots:
-                due = 100 * outcome.values(group.runs, group.held_out)
+                due = 100 * outcome.values(group.runs, drawn_words(group, outcome))
                 np.testing.assert_allclose(line.get_xdata(), due)
                 assert np.ptp(line.get_ydata()) < 0.3
 
@@ -93,6 +93,28 @@ def test_the_paper_s_task_is_a_line_through_all_rows_in_each_condition(panels, g
                 own = 100 * group.estimate(outcome).value
                 assert upright.pop(LOOKS[third(group)][1].lower()) == pytest.approx(own)
         assert upright == {}
+
+
+def test_understanding_is_drawn_over_the_instructions_by_which_it_is_compared(panels, groups):
+    """With the mean of the paper's task over the same ones, where these are fewer than the paper's two."""
+    axes = panels[OUTCOMES.index(UNDERSTOOD)]
+    papers = {third(group): group for group in groups if group.cell.name == "paper"}
+    dotted = {
+        (round(float(np.mean(line.get_ydata())), 6), round(float(line.get_xdata()[0]), 6))
+        for line in axes.lines
+        if line.get_linewidth() == 1.6
+    }
+    due, told = set(), {group.cell.name: [str(w) for w in drawn_words(group, UNDERSTOOD)] for group in groups}
+    assert told["without-move-blue"] == ["MOVE Blue"]
+    assert sorted(told["without-four"]) == sorted(told["paper"]) == ["MOVE Blue", "TOUCH Green"]
+    for group in groups:
+        words = drawn_words(group, UNDERSTOOD)
+        if len(words) == 1:
+            mean = 100 * UNDERSTOOD.values(papers[third(group)].runs, words).mean()
+            y = CELLS.index(group.cell) + LOOKS[third(group)][0]
+            due.add((round(y, 6), round(float(mean), 6)))
+    assert len(due) == 4
+    assert dotted == due
 
 
 def test_all_that_is_drawn_lies_within_its_panel(panels):

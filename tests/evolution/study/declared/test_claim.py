@@ -209,6 +209,19 @@ def test_claim_is_written_by_one_command(tmp_path, capsys):
     assert (tmp_path / "hundred" / "results" / "claim.png").is_file()
 
 
+def test_without_the_worlds_the_claim_is_told_so_and_its_tables_are_written(tmp_path, capsys):
+    """Who runs this part alone has hours behind him."""
+    (tmp_path / "hundred").mkdir()
+    made = runs_of(Readings(), {INDICATE: 0.2, IGNORE: 0.1}, np.random.default_rng(8))
+    write_rows(made, tmp_path / "hundred" / "rows.csv")
+    assert main(["study", "readings", "--part=hundred", f"--output={tmp_path}", "--now"]) == 0
+    said = capsys.readouterr().out
+    assert "no verdict yet, which asks for the worlds that both conditions met, too: 0 of 450 runs" in said
+    with (tmp_path / "hundred" / "results" / "claim.csv").open(encoding="utf-8") as file:
+        assert {row["runs"] for row in csv.DictReader(file)} == {"default"}
+    assert (tmp_path / "hundred" / "results" / "claim.png").is_file()
+
+
 def test_picture_has_every_answer_of_every_source_beside_its_means():
     """Read back: where dots and intervals lie, which are filled, and what is written beside them."""
     names = [question.name for question in QUESTIONS] + [f"runs with {FULL} agents"]
