@@ -6,6 +6,7 @@ of all of them at once. Several such processes share a device: while one breeds,
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -24,8 +25,9 @@ from evolution.search.config import RunConfig
 
 # Chosen, not measured: each holds some 0.5 GB of the device for itself, and breeds on one core.
 PROCESSES_PER_DEVICE: Final = 8
-# What a process is told must fit into one message.
+# What a process is told must fit into one message, and into a word of a command line (Linux: 128 KiB).
 MOST_RUNS: Final = 128
+LONGEST_WORD: Final = 100_000  # [bytes]
 # Whoever is lost in the middle leaves so many to be tested again at most; starting takes a second.
 MOST_RUNS_TESTED: Final = 8
 
@@ -91,7 +93,9 @@ class DeviceShares:
             folder: Of the experiment.
         """
         evolving = [chain[0] for chain in chains if chain[0].stage == EVOLVING]
-        n = max(min(self.processes, len(evolving)), -(-len(evolving) // MOST_RUNS))
+        longest = max((len(json.dumps(job.arguments).encode()) for job in evolving), default=1)
+        most = max(1, min(MOST_RUNS, LONGEST_WORD // longest))
+        n = max(min(self.processes, len(evolving)), -(-len(evolving) // most))
         return [[self._batch(evolving, number, n, folder)] for number in range(n)]
 
     def later(self, chains: Sequence[Sequence[Job]], folder: Path) -> list[list[Job]]:

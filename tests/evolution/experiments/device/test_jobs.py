@@ -1,7 +1,9 @@
 """How runs are shared out among processes and devices."""
 
 import json
+import subprocess
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -40,6 +42,16 @@ def test_a_thousand_runs_fit_into_the_messages_of_a_few_processes(tmp_path):
     assert max(len(job.runs) for job in jobs) <= MOST_RUNS
     for job in jobs:
         assert len(json.dumps({"function": job.function, "arguments": job.arguments})) < LARGEST_MESSAGE
+
+
+def test_a_batch_of_long_paths_can_be_handed_to_a_process_as_one_word():
+    """Linux takes words of 128 KiB; a run's own is a kilobyte and its folder's path."""
+    deep = Path("/" + "/".join(["a" * 200] * 15))
+    jobs = batches(300, DeviceShares(("cuda",), 2), deep)
+    assert len(jobs) > 300 / MOST_RUNS
+    for job in jobs:
+        word = json.dumps({"function": job.function, "arguments": job.arguments})
+        subprocess.run(["true", word], check=True)
 
 
 def test_what_follows_evolution_is_done_for_some_runs_in_each_process(tmp_path):
