@@ -27,8 +27,8 @@ if threading.current_thread() is threading.main_thread():
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers() -> int:
-    """Two workers more than there are processors: some tests wait for programs, and others go on then."""
-    return len(os.sched_getaffinity(0)) + 2
+    """One more worker than there are processors: some tests wait for programs, and others can go on then."""
+    return len(os.sched_getaffinity(0)) + 1
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -28,6 +28,7 @@ ROW_HEIGHT: Final = 0.27  # [inch]
 PERCENT: Final = (-4.0, 104.0)
 # Half of the height that the dots of runs are spread over [rows].
 SPREAD: Final = 0.11
+DOTTED: Final = (0, (1, 1))
 
 
 def cells_figure(groups: Sequence[Group], found: Sequence[Comparison]) -> Figure:
@@ -77,7 +78,7 @@ def _draw_paper(axes: Axes, group: Group, outcome: Outcome, row: int, groups: Se
         if len(words) < len(paper.held_out):
             mean = outcome.values(paper.runs, words).mean()
             ends = [row + offset - 0.17, row + offset + 0.17]
-            axes.plot([100 * mean] * 2, ends, color=colour, lw=1.6, ls=(0, (1, 1)), zorder=1)
+            axes.plot([100 * mean] * 2, ends, color=colour, lw=1.6, ls=DOTTED, zorder=1)
 
 
 def _draw(axes: Axes, group: Group, outcome: Outcome, row: int, found: Sequence[Comparison]) -> None:
@@ -118,9 +119,8 @@ def _handles(groups: Sequence[Group]) -> list[Line2D]:
         Line2D([], [], color=INK, ls="", **mark, label="differs from the paper's task: p < 0.05 after Holm"),
         Line2D([], [], color=INK, ls="", mfc="white", **mark, label="not shown to differ"),
         Line2D([], [], color=INK, ls="", marker="o", ms=1.8, alpha=0.4, mew=0, label="a run"),
-        Line2D(
-            [], [], color=INK, lw=0.6, label="mean of the paper's task (dotted: of the same instructions)"
-        ),
+        Line2D([], [], color=INK, lw=0.6, label="mean of the paper's task"),
+        Line2D([], [], color=INK, lw=1.6, ls=DOTTED, label="the same, of the words held out here"),
     ]
 
 
