@@ -144,10 +144,12 @@ class DeclaredStudy:
         ]
         told = {factor: own for factor, own in without.items() if own}
         found = costs(_indicate(with_all), told)
+        table = _write([("less-one-effects", cost_table(found))], results)
+        if not found:
+            return table, notes
         seeds = f"seeds {LESS_ONE_SEEDS[0]} to {LESS_ONE_SEEDS[-1]}"
         about = f"{len(runs)} runs With-Indicate, {seeds}, less the winner's run with the same seed"
         figure = less_one_figure(found, winner, "The winner less one departure at a time", about)
-        table = _write([("less-one-effects", cost_table(found))], results)
         return [*table, *save_figure(figure, results / "less-one-effects")], notes
 
     def _write_hundred(self, runs: Sequence[MeasuredRun], results: Path) -> Written:
