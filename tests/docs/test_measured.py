@@ -57,12 +57,26 @@ def test_agreement_is_what_its_trials_say():
 
 
 def test_closed_loops_are_what_their_trials_say():
-    for (agent, instruction), own in by(rows("closed-loop-plain.csv"), "agent", "instruction").items():
-        loops = by(own, "loop")
-        planar = sum(row["planar"] == "1" for row in loops["open",])
-        counts = [sum(row["physical"] == "1" for row in loops[name,]) for name in LOOPS]
-        line = " | ".join(map(str, [len(loops["open",]), planar, *counts]))
-        assert f"| `{agent}`, {instruction} | {line} |" in PHYSICS
+    found = rows("closed-loop.csv")
+    for (agent, instruction), own in by(found, "agent", "instruction").items():
+        assert f"| `{agent}`, {instruction} | {' | '.join(map(str, counts_of(own)))} |" in PHYSICS
+    for (agent,), own in by(found, "agent").items():
+        assert f"| **`{agent}`** | {' | '.join(f'**{n}**' for n in counts_of(own))} |" in PHYSICS
+    trials, planar, *_, camera = counts_of(found)
+    told = f"{camera} of {trials} trials"
+    assert f"{told} are carried out with the camera, where the planar arm carries out {planar}" in PHYSICS
+    article = " ".join((DOCS / "article.md").read_text(encoding="utf-8").split())
+    assert f"carry out {told}, where the planar arm carries out {planar}" in article
+    trials, planar, *_, camera = counts_of(rows("closed-loop-plain.csv"))
+    assert f"{camera} of {trials}, where the planar arm carried out {planar}" in PHYSICS
+
+
+def counts_of(found):
+    """Trials, those that the planar arm carries out, and those that the robot does, loop by loop."""
+    loops = by(found, "loop")
+    planar = sum(row["planar"] == "1" for row in loops["open",])
+    counts = [sum(row["physical"] == "1" for row in loops[name,]) for name in LOOPS]
+    return [len(loops["open",]), planar, *counts]
 
 
 def test_lines_of_descent_are_what_their_skills_say():
