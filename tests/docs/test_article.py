@@ -114,6 +114,26 @@ def test_runs_with_agents_that_carry_out_held_out_instructions(decided, hundred)
     assert "{} and {} runs agents that carry out one".format(*partial) in ARTICLE
 
 
+def test_the_printed_numbers_stand_beside_ours():
+    own = {
+        c: [
+            row
+            for row in rows(READINGS / "hundred.csv")
+            if row["condition"] == c and row["mutation_probability"] == "0.4"
+        ]
+        for c in CONDITIONS
+    }
+    assert {len(each) for each in own.values()} == {20}
+    page = " ".join((DOCS / "results.md").read_text().split())
+    ends, full = (
+        [count(own[c]) for c in CONDITIONS]
+        for count in (ending_at_the_largest, lambda each: having(each, "fully compositional"))
+    )
+    shares = [percent(mastering(own[c], "I")[0]).removesuffix(" %") for c in CONDITIONS]
+    told = "{} and {} of 20 runs learn the seven to the end, {} and {} % of late agents master them, and {}"
+    assert told.format(*ends, *shares, "{} and {} runs have agents".format(*full)) in page
+
+
 def test_ratios_of_the_conditions(claim):
     questions = {f"({name})": f"agents in category 10 of {name}" for name in ("II", "III", "IV")}
     paper = {
