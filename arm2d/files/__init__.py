@@ -11,6 +11,7 @@ guessed before we do. So
 
 from arm2d.files.folders import LinkError, opened_folder
 from arm2d.files.handles import handle_of_new, handle_to_append, handle_to_overwrite, handle_to_rewrite
+from arm2d.files.locks import lock_file
 from arm2d.files.reading import NoFileError, read_file, read_with_status
 from arm2d.files.writing import final_name, is_temporary, write_whole
 
@@ -23,6 +24,7 @@ __all__ = [
     "handle_to_overwrite",
     "handle_to_rewrite",
     "is_temporary",
+    "lock_file",
     "opened_folder",
     "read_file",
     "read_with_status",

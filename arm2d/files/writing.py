@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import re
 import secrets
@@ -12,6 +11,7 @@ from typing import Final
 
 from arm2d.files.folders import opened_folder
 from arm2d.files.handles import handle_in
+from arm2d.files.locks import lock_file
 
 ATTEMPTS: Final = 5
 TEMPORARY: Final = re.compile(r"\.(.+?)(\.[0-9a-f]{16})?\.tmp")
@@ -54,7 +54,8 @@ def _write_and_rename(name: str, data: bytes, folder: int) -> None:
     temporary = f".{name}.{secrets.token_hex(8)}.tmp"
     handle = handle_in(folder, temporary, os.O_EXCL | os.O_CREAT | os.O_WRONLY)
     try:
-        _lock(handle)  # so that nobody takes us for dead
+        with suppress(OSError):
+            lock_file(handle)  # so that nobody takes us for dead
         rest = memoryview(data)
         while rest:
             rest = rest[os.write(handle, rest) :]
@@ -75,16 +76,7 @@ def _remove_leftovers(name: str, folder: int) -> None:
             with suppress(OSError):
                 handle = handle_in(folder, other, os.O_WRONLY)
                 try:
-                    if _lock(handle):
+                    if lock_file(handle):
                         os.unlink(other, dir_fd=folder)
                 finally:
                     os.close(handle)
-
-
-def _lock(handle: int) -> bool:
-    """Lock a file; False if somebody else does, or the file system keeps no locks."""
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return False
-    return True

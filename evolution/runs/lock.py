@@ -6,8 +6,6 @@ lock    4711              the process
 
 from __future__ import annotations
 
-import errno
-import fcntl
 import os
 import re
 from collections.abc import Iterator
@@ -16,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from arm2d.files import LinkError, handle_to_rewrite
+from arm2d.files import LinkError, handle_to_rewrite, lock_file
 from evolution.runs.folder import CONFIG, LOCK
 from evolution.runs.lease import RunInUseError, leased
 
@@ -24,8 +22,6 @@ __all__ = ["Hold", "RunInUseError", "Word", "in_use", "last_word", "locked"]
 
 LONGEST: Final = 200  # [bytes]
 PATTERN: Final = re.compile(rb"(\d{1,10})\n(?:(\d{1,7}) (\d{1,3}\.\d{6})\n)?")
-# What file systems answer that keep no locks.
-NO_LOCKS: Final = (errno.ENOSYS, errno.ENOLCK, errno.ENOTSUP)
 
 
 @dataclass(frozen=True)
@@ -116,17 +112,12 @@ def _write(descriptor: int, text: str) -> None:
 def _lock(descriptor: int, folder: Path) -> bool:
     """Lock the file; False if its file system keeps no locks, so that the lease must do."""
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return lock_file(descriptor)
     except BlockingIOError:
         raise RunInUseError(
             f"another process (number {_word(descriptor).process or 'unknown'}) works on {folder}; "
             "wait until it ends, or choose another folder"
         ) from None
-    except OSError as error:
-        if error.errno not in NO_LOCKS:
-            raise
-        return False
-    return True
 
 
 @contextmanager

@@ -6,7 +6,6 @@ Every trial is one row of a file, written as soon as it is known; a file that is
 from __future__ import annotations
 
 import csv
-import fcntl
 import hashlib
 import multiprocessing
 import os
@@ -23,7 +22,7 @@ from numpy.typing import NDArray
 
 from arm2d import Instruction, Readings, Trials, draw_trials, run_trials
 from arm2d.cache import sources_digest
-from arm2d.files import handle_to_append, read_file
+from arm2d.files import handle_to_append, lock_file, read_file
 from arm2d.records import brief
 from arm2d.trials import START_AREAS
 from models.robots import PlaneMap, Robot, get_robot
@@ -196,13 +195,11 @@ def fingerprint(listed: Sequence[Job], robot: str, head: Head = "turns") -> str:
 def _hold(descriptor: int, path: Path) -> None:
     """Keep other commands from writing to the same file; the kernel lets go when it is closed."""
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        lock_file(descriptor)
     except BlockingIOError:
         raise ValueError(
             f"another command writes to {path}; wait until it has ended, or choose another file"
         ) from None
-    except OSError:
-        return  # a file system without locks
 
 
 def _read(path: Path, mark: str, listed: Sequence[Job]) -> list[Outcome]:

@@ -14,7 +14,7 @@ import pytest
 
 from evolution.cli import main
 from evolution.experiments.standing import is_held
-from evolution.runs import lease, lock
+from evolution.runs import lease
 from evolution.runs.folder import LEASE
 from evolution.runs.lease import EXIT_CODE, LAPSE, Holder, RunInUseError, leased
 from evolution.runs.lock import locked
@@ -193,7 +193,7 @@ def test_where_the_file_system_keeps_no_locks_the_lease_keeps_processes_apart(tm
     def refuse(file, operation):
         raise OSError(errno.ENOLCK, "No locks available")
 
-    monkeypatch.setattr(lock.fcntl, "flock", refuse)
+    monkeypatch.setattr("arm2d.files.locks.fcntl.flock", refuse)
     with locked(tmp_path), pytest.raises(RunInUseError, match=f"process {os.getpid()} on"), locked(tmp_path):
         pass
     with locked(tmp_path):
