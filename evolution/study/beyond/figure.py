@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from arm2d import Condition, Instruction
+from arm2d import NON_EXPERIENCED, Condition, Instruction
 from arm2d.drawing import FULL, INK, SMALL, STYLE, look
 from arm2d.tasks.task import task_of
 from evolution.figures.page import CONDITION_COLOURS, FAINT, SERIES, headed
@@ -58,8 +58,7 @@ def cells_figure(groups: Sequence[Group], found: Sequence[Comparison]) -> Figure
 
 def drawn_words(group: Group, outcome: Outcome) -> tuple[Instruction, ...]:
     """The held-out instructions over which a group is drawn: of understanding, those it is compared by."""
-    papers = task_of(Condition.WITH_INDICATE).held_out
-    return tuple(word for word in group.held_out if word in papers or outcome != UNDERSTOOD)
+    return tuple(word for word in group.held_out if word in NON_EXPERIENCED or outcome != UNDERSTOOD)
 
 
 def _draw_paper(axes: Axes, group: Group, outcome: Outcome, row: int, groups: Sequence[Group]) -> None:
@@ -69,7 +68,6 @@ def _draw_paper(axes: Axes, group: Group, outcome: Outcome, row: int, groups: Se
     if group.cell == PAPER:
         mean = outcome.values(group.runs, words).mean()
         axes.axvline(100 * mean, color=colour, lw=0.6, zorder=1)
-        return
     if outcome != UNDERSTOOD:
         return
     third = task_of(group.task).third

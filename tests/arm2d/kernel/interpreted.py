@@ -44,6 +44,13 @@ def test_kernel_and_reference_agree(alternative, evolved_plain):
         assert not list(disagreements(evolved_plain[rng.choice(len(evolved_plain), 1)], each, readings))
 
 
+def test_discs_far_beyond_the_tables_are_nowhere_near(evolved_plain):
+    """Where the compiled kernel would read what lies behind a table, this one says so."""
+    trials = draw_trials(["touch red"], 1, PLAIN, np.random.default_rng(4))
+    far = replace(trials, discs=trials.discs * 20.0)  # 20 to 30 m
+    assert not list(disagreements(evolved_plain[:1], far, PLAIN))
+
+
 @pytest.mark.parametrize("camera", ["J1", "end"])
 def test_a_world_that_is_stepped_ends_as_the_kernel_does(camera, evolved_plain):
     """Two blocks of lanes, the second of them not full."""

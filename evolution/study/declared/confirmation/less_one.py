@@ -31,7 +31,7 @@ class Cost:
         outcome: The figure.
         differences: [seeds], the winner less this departure, less the winner with the same seed.
         difference: Their mean, with a 95 % bootstrap interval over seeds.
-        p: By exchange of signs,
+        p: By `sign_flip_test`, which beyond 16 seeds is Student's t,
         corrected: and after Holm's correction over all departures and figures.
         at_limit: Runs without the departure that end at the largest fitness,
         winners_at_limit: and the winner's runs with the same seeds that do.
