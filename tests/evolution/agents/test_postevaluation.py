@@ -186,6 +186,19 @@ def test_tests_go_on_past_a_damaged_run_and_end_with_its_name(experiment, tmp_pa
     assert POST_EVALUATION.path(later, late_spans(later)[0]).exists()
 
 
+def test_tests_go_on_past_a_run_that_cannot_be_locked(experiment, tmp_path, capsys):
+    """Something lies where its lock is to be, so that not even root can write there."""
+    copy = shutil.copytree(experiment, tmp_path / "copy")
+    closed, later = (copy / name for name in ("with-indicate/seed-0001", "with-ignore/seed-0002"))
+    (closed / "lock").unlink(missing_ok=True)
+    (closed / "lock").mkdir()
+    missing = POST_EVALUATION.path(RunFolder.open(later), late_spans(RunFolder.open(later))[0])
+    missing.unlink()
+    assert main(["postevaluate", str(copy)]) == 2
+    assert str(closed) in capsys.readouterr().err
+    assert missing.exists()
+
+
 def test_folder_without_runs_is_refused(tmp_path):
     with pytest.raises(ValueError, match="holds no runs"):
         open_experiment(tmp_path)

@@ -28,6 +28,17 @@ const found = {
   blueAt: unmoved.states[5].discs[0].bearing,
   unended: wordarm.progress({ ...world, ignoreStops: false }, { judged: { action: 3, run: 50 } }),
   paused: wordarm.progress(world, { judged: { action: 1, run: 25, good: false } }),
+  ended: [
+    { action: 3, object: 0, best: 100, alpha: 30, beta: 90 },
+    { action: 2, object: 0, best: 100, alpha: 60, beta: 90 },
+    { action: 1, object: 0, best: 100, alpha: 30, beta: 30 },
+    { action: 1, object: 0, best: 99, alpha: 30, beta: 30 },
+  ].map(({ alpha, beta, ...judged }) => {
+    const disc = { bearing: 30, low: 30, high: 30, distance: 150, side: 0 };
+    const state = { alpha, beta, discs: [disc, { ...disc, bearing: 90 }, { ...disc, bearing: 150 }] };
+    const whole = { firstOffset: 60, excused: [], steps: 250, collided: false, done: true, ...judged };
+    return wordarm.verdict({ ...world, strictSuccess: true }, { ...state, judged: whole }, false).text;
+  }),
   deaf: wordarm.sense({ world, silenced: silenced({ object: true }) }, calm.states[0], touchRed).slice(12),
   mute: whole(wordarm.open(agent, start, touchRed, silenced({ neurons: [false, true, false] }))).states.map((s) => s.z[1]),
   third: wordarm.translated({ action: 2, object: 0 }, "with-ignore"),

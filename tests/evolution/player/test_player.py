@@ -56,6 +56,16 @@ def test_what_is_done_grows_where_nothing_ends_a_trial_and_stays_where_runs_are_
     assert found["paused"] == 0.25
 
 
+def test_why_an_action_that_was_done_is_no_success_is_said(found):
+    reasons = [text.removeprefix("Not done: ").split(" (")[0] for text in found["ended"]]
+    assert reasons == [
+        "it stayed away, but had Blue in view in the end",
+        "it did the action, but ended off the object",
+        "it did the action, but with a bent forearm",
+        "time is up",
+    ]
+
+
 def test_silenced_word_is_three_zeros_and_silenced_neuron_says_nothing(found):
     assert found["deaf"] == [0, 0, 0, 1, 0, 1]
     assert set(found["mute"]) == {0}

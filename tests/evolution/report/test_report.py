@@ -1,5 +1,6 @@
 """The page without a browser: it needs nothing else, shows every number, and says what is missing."""
 
+import errno
 import json
 import re
 import shutil
@@ -15,6 +16,7 @@ from matplotlib.figure import Figure
 
 from arm2d import Condition, Readings
 from arm2d.films import write_mp4
+from evolution.agents.parts import late_spans
 from evolution.agents.postevaluation import post_evaluate
 from evolution.agents.solving import solved_trials
 from evolution.agents.subtasks import SUBTASKS
@@ -249,6 +251,24 @@ def test_what_is_missing_is_named_and_the_rest_is_shown(experiment, tmp_path):
     assert "Only With-Indicate runs can be analysed, so the conditions are not compared." in words
     assert "0 of 2 With-Indicate runs end at the largest fitness" in words
     assert re.search(r"with-ignore, seed 1 30 of 30 \d\.\d{3} 0 %", words)
+
+
+def test_a_run_that_may_not_be_looked_into_stands_on_the_page_without_a_share(
+    experiment, tmp_path, monkeypatch
+):
+    """Nobody knows how much of it is to be tested. Root may look into everything, so one is refused here."""
+    folder = tmp_path / "closed"
+    shutil.copytree(experiment, folder)
+    closed = next(folder.glob("with-ignore/seed-*"))
+
+    def refusing(run):
+        if run.path == closed:
+            raise PermissionError(errno.EACCES, "Permission denied")
+        return late_spans(run)
+
+    results = analyse(open_experiment(folder))
+    monkeypatch.setattr("evolution.experiments.standing.late_spans", refusing)
+    assert re.search(r"with-ignore, seed \d+ 0 of 30 none yet - ", Page(render(results, folder)).text)
 
 
 def test_an_experiment_without_any_result_is_a_page_too(finished_run, tmp_path):
