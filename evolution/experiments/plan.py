@@ -8,7 +8,7 @@ What is done is known from the files of a run alone, so whoever carries out a pl
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -36,12 +36,14 @@ class Plan:
         configs: The runs, in the order in which they are started.
         post_evaluate: Whether the paper's two tests follow evolution.
         names: Names of variants; those that have none are named after what is special about them.
+        known: Runs that are done elsewhere, of which no folder is needed.
     """
 
     folder: Path
     configs: tuple[RunConfig, ...]
     post_evaluate: bool = True
     names: Mapping[Variant, str] = field(default_factory=dict)
+    known: Collection[RunConfig] = ()
 
     @cached_property
     def variants(self) -> dict[Variant, str]:
@@ -65,10 +67,12 @@ class Plan:
         return Standing(config, variant=self.variant_folder(config)).name
 
     def standing(self, config: RunConfig) -> Standing:
-        """How far a run has come."""
-        return standing_of(
-            self.path(config), config, variant=self.variant_folder(config), to_be_tested=self.post_evaluate
-        )
+        """How far a run has come; one that is done elsewhere is done."""
+        variant = self.variant_folder(config)
+        if config in self.known:
+            generations = config.settings.generations
+            return Standing(config, generations, finished=True, evolved=True, done=True, variant=variant)
+        return standing_of(self.path(config), config, variant=variant, to_be_tested=self.post_evaluate)
 
     def standings(self) -> list[Standing]:
         """How far every run has come."""

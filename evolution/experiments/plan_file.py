@@ -47,16 +47,21 @@ def write_plan(plan: Plan) -> None:
 
 
 def plan_text(plan: Plan) -> str:
-    """The text of plan.toml: one table for each variant and condition, with its seeds."""
+    """The text of plan.toml: one table for each variant and condition, with its seeds and those done elsewhere."""
     seeds: dict[RunConfig, list[int]] = {}
     for config in plan.configs:
         seeds.setdefault(replace(config, seed=0), []).append(config.seed)
+    known = {
+        shared: [seed for seed in found if replace(shared, seed=seed) in plan.known]
+        for shared, found in seeds.items()
+    }
     tables = [
         {
             "name": plan.variants[Variant.of(shared)],
             "condition": shared.task.condition_name,
             **({"task": special} if (special := shared.task.to_mapping()) else {}),
             "seeds": found,
+            **({"known": known[shared]} if known[shared] else {}),
             "settings": shared.settings.to_mapping(),
             "readings": shared.readings.to_mapping(),
         }
@@ -92,7 +97,7 @@ def _plan_of(folder: Path, values: dict[str, Any]) -> Plan:
     """A plan from the values of its file; any of several errors if they are none."""
     if values["format"] != FORMAT:
         raise ValueError(f"format {values['format']!r} is not known here; this version reads format {FORMAT}")
-    configs, names = [], {}
+    configs, known, names = [], set(), {}
     for table in values["runs"]:
         base = RunConfig(
             read_task(table["condition"], table.get("task")),
@@ -102,7 +107,8 @@ def _plan_of(folder: Path, values: dict[str, Any]) -> Plan:
         )
         names[Variant.of(base)] = check_name(table["name"])
         configs += [replace(base, seed=seed) for seed in table["seeds"]]
-    return Plan(folder, tuple(configs), values["post_evaluate"] is True, names)
+        known |= {replace(base, seed=seed) for seed in table.get("known", ())}
+    return Plan(folder, tuple(configs), values["post_evaluate"] is True, names, known)
 
 
 def experiment_standings(path: Path) -> tuple[dict[Path, Standing], list[str]]:

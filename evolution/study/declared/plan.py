@@ -80,7 +80,7 @@ class MeasuredPlan(Plan, Generic[R]):
     """A plan that measures every run as soon as it is evolved, or, with `post_evaluate`, tests it whole.
 
     Attributes:
-        known: Runs that have a measured row, of which no folder is needed.
+        known: The measured rows of runs that have one, of which no folder is needed.
         measurement: What is measured.
     """
 
@@ -94,12 +94,9 @@ class MeasuredPlan(Plan, Generic[R]):
 
     def standing(self, config: RunConfig) -> Standing:
         """How far a run has come; it is done when it is measured."""
-        if row := self.known.get(config):
-            generations, name = config.settings.generations, self.variant_folder(config)
-            return Standing(
-                config, generations, row.plateau, finished=True, evolved=True, done=True, variant=name
-            )
         standing = super().standing(config)
+        if config in self.known:
+            return standing
         measured = self.post_evaluate or self.measurement.done(self.path(config))
         return replace(standing, done=standing.done and measured)
 

@@ -83,6 +83,13 @@ def test_what_has_no_row_is_evolved_and_measured_by_one_command(studied, begun):
 
 
 @pytest.mark.slow
+def test_status_counts_runs_that_have_a_row_from_elsewhere_as_done(studied, capsys):
+    folder, _ = studied
+    assert main(["status", str(folder)]) == 0
+    assert "380 of 380 runs done, 0 at work" in capsys.readouterr().out
+
+
+@pytest.mark.slow
 def test_tables_and_picture_are_made_again_from_rows_alone(studied, tmp_path, capsys):
     folder, _ = studied
     assert sorted(path.name for path in (folder / "results").iterdir()) == [
