@@ -39,7 +39,7 @@ from models.robots import ROBOTS
 from mujoco_port.film.gl import choose_back_end
 from tests.evolution.made_up import both_conditions
 from tests.evolution.study.beyond.made_up import made_study
-from tests.evolution.study.declared.synthetic import CONFIGS, made_up
+from tests.evolution.study.declared.synthetic import configs, made_up
 
 choose_back_end()  # before anything imports mujoco: other tests draw in this process
 
@@ -122,7 +122,7 @@ def models():
     """Regressions of every outcome with coefficients that are made up."""
     rng, found = np.random.default_rng(6), {}
     for condition in Condition:
-        levels = level_numbers([made_up(config) for config in CONFIGS if config.condition is condition])
+        levels = level_numbers([made_up(config) for config in configs(condition)])
         found[condition] = [
             Model(
                 outcome, levels, (), np.r_[0.5, rng.normal(0, 0.2, N_MAIN - 1)], 0.01 * np.eye(N_MAIN),

@@ -2,13 +2,18 @@
 
 import numpy as np
 
+from arm2d import Condition
 from evolution.study.declared.factors import FACTORS, levels_of
 from evolution.study.declared.parts import factorial
 from evolution.study.declared.rows import COUNTS, MeasuredRun
 
-CONFIGS = factorial().configs
 PLACES = {factor.name: place for place, factor in enumerate(FACTORS)}
 AGENTS = 500
+
+
+def configs(*conditions):
+    """The runs of the factorial study in these conditions, by default in both; drawn when first asked for."""
+    return [config for config in factorial().configs if config.condition in (conditions or Condition)]
 
 
 def level_of(config, factor):
@@ -28,7 +33,7 @@ def logistic(x):
     return 1 / (1 + np.exp(-x))
 
 
-def runs_with_effects(seed=0, configs=CONFIGS):
+def runs_with_effects(seed=0):
     """Runs in which a few factors do something.
 
     Small mutations raise the plateau by 0.3, excess by 0.2 and with small mutations by 0.25 more; start areas
@@ -36,7 +41,7 @@ def runs_with_effects(seed=0, configs=CONFIGS):
     solved follows the camera.
     """
     rng, runs = np.random.default_rng(seed), []
-    for config in configs:
+    for config in configs():
         small, excess = (
             level_of(config, "mutation") == "0.4 / 0.03",
             level_of(config, "parent_scaling") == "excess",

@@ -29,7 +29,7 @@ from evolution.study.declared.parts import DeclaredPart
 from evolution.study.declared.plan import RowFile, carry_out
 from evolution.study.declared.regression import Estimate
 from evolution.study.declared.rows import write_rows
-from tests.evolution.study.declared.synthetic import CONFIGS, made_up, runs_with_effects
+from tests.evolution.study.declared.synthetic import configs, made_up, runs_with_effects
 
 AGENTS = 10_000
 
@@ -158,7 +158,7 @@ def test_worlds_are_compared_with_themselves():
     """Worlds differ by far more than the conditions do; paired, the difference shows."""
     rng, shares = np.random.default_rng(7), {}
     runs = []
-    for config in CONFIGS:
+    for config in configs():
         base = shares.setdefault(config.seed, rng.uniform(0, 0.8))
         k = round(500 * (base + 0.04 * (config.condition is INDICATE) + rng.normal(0, 0.02)))
         run = made_up(config)

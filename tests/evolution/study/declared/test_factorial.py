@@ -22,7 +22,6 @@ from evolution.study.declared.rows import COUNTS, measured_run, read_rows, write
 from tests.evolution.runs.golden import ALTERNATIVES
 
 DOCS = Path(__file__).parents[4] / "docs"
-WORLDS = factorial().names
 
 
 def met(worlds, *factors):
@@ -36,7 +35,7 @@ def met(worlds, *factors):
 
 
 def test_every_alternative_of_the_ledger_is_a_level():
-    drawn = {(name, getattr(world, name)) for world in WORLDS for name in world.to_mapping()}
+    drawn = {(name, getattr(world, name)) for world in factorial().names for name in world.to_mapping()}
     listed = {(name, value) for name, values in ALTERNATIVES.items() for value in values}
     words = {(name, value) for name, allowed in choices().items() for value in allowed}
     defaults = {(name, getattr(Readings(), name)) for name in Readings().to_mapping()}
@@ -51,21 +50,21 @@ def test_plain_readings_are_the_first_level_of_every_factor():
 @pytest.mark.parametrize("first", [40, 150, 300])
 def test_levels_meet_equally_often_in_the_whole_and_in_the_first_worlds(first):
     for factor in FACTORS:
-        assert np.ptp(met(list(WORLDS)[:first], factor)) <= 2
+        assert np.ptp(met(list(factorial().names)[:first], factor)) <= 2
 
 
 @pytest.mark.parametrize(("first", "most"), [(150, 0.2), (300, 0.1)])
 def test_pairs_of_levels_meet_equally_often(first, most):
     """None is off its share by more than a tenth of it in the whole, a fifth in what both conditions meet."""
     for one, other in combinations(FACTORS, 2):
-        counts = met(list(WORLDS)[:first], one, other)
+        counts = met(list(factorial().names)[:first], one, other)
         share = first / counts.size
         assert np.abs(counts - share).max() <= most * share + 1e-9, (one.name, other.name)
 
 
 def test_draw_is_the_same_again_and_another_with_another_seed():
-    assert balanced_worlds(12, 13) == tuple(WORLDS)[:12]
-    assert balanced_worlds(12, 14) != tuple(WORLDS)[:12]
+    assert balanced_worlds(12, 13) == tuple(factorial().names)[:12]
+    assert balanced_worlds(12, 14) != tuple(factorial().names)[:12]
 
 
 def test_worlds_that_readings_refuse_are_passed_over():

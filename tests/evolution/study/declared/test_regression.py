@@ -26,15 +26,13 @@ from evolution.study.declared.results import (
 )
 from evolution.study.declared.rows import write_rows
 from tests.evolution.study.declared.synthetic import (
-    CONFIGS,
     PLACES,
+    configs,
     level_of,
     logistic,
     made_up,
     runs_with_effects,
 )
-
-INDICATE = [config for config in CONFIGS if config.condition is Condition.WITH_INDICATE]
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +61,7 @@ def place(factor, level):
 
 
 def test_design_has_a_column_for_every_level_but_the_defaults_and_products_for_interactions():
-    levels = level_numbers([made_up(config) for config in INDICATE])
+    levels = level_numbers([made_up(config) for config in configs(Condition.WITH_INDICATE)])
     assert design(levels).shape == (300, N_MAIN) == (300, 33)
     assert np.linalg.matrix_rank(design(levels)) == 33
     one, other = PLACES["mutation"], PLACES["object_radius"]
@@ -117,7 +115,7 @@ def test_intervals_hold_what_they_promise():
         rng = np.random.default_rng(seed)
         runs = [
             made_up(config, 2 + 0.3 * (level_of(config, "mutation") == "0.1 / 0.05") + rng.normal(0, 0.2))
-            for config in INDICATE
+            for config in configs(Condition.WITH_INDICATE)
         ]
         model = fit(runs, PLATEAU)
         for factor, level, true in (("mutation", "0.1 / 0.05", 0.3), ("crossover", "0.3", 0.0)):
@@ -139,14 +137,14 @@ def test_level_under_which_nothing_succeeds_has_a_finite_effect():
     rng = np.random.default_rng(4)
     runs = [
         made_up(config, shares=(rng.random() * (level_of(config, "ties") == "children"), 0, 0, 0))
-        for config in INDICATE
+        for config in configs(Condition.WITH_INDICATE)
     ]
     effect = fit(runs, TOP_SHARES[0]).effect(*place("ties", "children"))
     assert 0.4 < effect.low <= effect.value <= effect.high < 0.55
 
 
 def test_outcome_that_is_the_same_in_all_runs_has_no_effects(indicate):
-    runs = [made_up(config) for config in INDICATE]
+    runs = [made_up(config) for config in configs(Condition.WITH_INDICATE)]
     for outcome in (SOLVED, PLATEAU, *TOP_SHARES):
         model = fit(runs, outcome)
         assert model.predict(model.levels[:2]) == pytest.approx(outcome.values(runs[:2]), abs=1e-9)
@@ -201,7 +199,7 @@ def test_distance_is_0_for_the_published_figures_and_counts_standard_deviations(
 
 def test_nothing_that_matters_leaves_the_plain_readings():
     rng = np.random.default_rng(5)
-    made = [made_up(config, rng.normal(2, 0.1), rng.random(4)) for config in CONFIGS]
+    made = [made_up(config, rng.normal(2, 0.1), rng.random(4)) for config in configs()]
     models = {
         c: [fit([run for run in made if run.config.condition is c], figure) for figure in FIGURES]
         for c in Condition
