@@ -50,10 +50,9 @@ def test_the_page_lists_no_deep_path():
         assert name in dir(import_module(package)), f"{package}.{name}"
 
 
-@pytest.mark.parametrize("package", api_page.PACKAGES)
-def test_a_record_of_arrays_prints_as_one_line(package):
-    records = list(_records_of_arrays(ROOT / package))
-    assert records
+def test_a_record_of_arrays_prints_as_one_line():
+    records = [each for package in api_page.PACKAGES for each in _records_of_arrays(ROOT / package)]
+    assert len(records) > 20
     for module, name in records:
         own = vars(getattr(import_module(module), name))["__repr__"]
         # What dataclass writes prints whole arrays; it is wrapped against recursion.
