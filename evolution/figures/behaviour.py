@@ -87,11 +87,10 @@ def _draw_lines(
                 DT * np.arange(angles.shape[1]), angles[trial], color=colour, ls=style, lw=0.7, alpha=0.8
             )
             events = ((behaviour.first_sight[trial], "o", "white"), (behaviour.first_touch[trial], "D", INK))
+            look = {"ms": 2.2, "mec": INK, "mew": 0.4, "zorder": 4, "clip_on": False}
             for row, marker, face in events:
                 if row != NEVER:
-                    axes.plot(
-                        DT * row, angles[trial, row], marker, ms=2.2, mfc=face, mec=INK, mew=0.4, zorder=4
-                    )
+                    axes.plot(DT * row, angles[trial, row], marker, mfc=face, **look)
 
 
 def trajectory_handles() -> list[Line2D | Patch]:

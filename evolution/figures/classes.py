@@ -26,6 +26,8 @@ Behaviours = Mapping[Condition, Mapping[AgentClass, ClassBehaviour]]
 
 # Windows that are shown, of `WINDOWS`: the search, and what follows sight.
 SHOWN_WINDOWS: Final = (0, 1)
+# A narrower part of a bar has no room for its number [%].
+LEAST_TOLD: Final = 9
 SHORT: Final = {
     AgentClass.FULL: "fully",
     AgentClass.PARTIAL: "partially",
@@ -75,7 +77,7 @@ def _draw_bar(axes: Axes, place: float, behaviour: ClassBehaviour, window: int) 
     left = 0.0
     for part, share in zip(PARTS, 100 * values.mean(axis=0), strict=True):
         axes.barh(place, share, 0.78, left=left, color=SHARE_COLOURS[part], lw=0)
-        if share >= 9 and part != "rest":
+        if round(share) >= LEAST_TOLD and part != "rest":
             ink = "white" if part == "action" else INK
             axes.text(
                 left + share / 2, place, f"{share:.0f}", ha="center", va="center", fontsize=SMALL, color=ink

@@ -75,12 +75,13 @@ def fans_figure(condition: Condition, fans: Sequence[Fan]) -> Figure:
     with look(STYLE):
         figure = Figure(figsize=(FULL if len(fans) > 1 else COLUMN, height))
         what = "An agent of each class" if len(fans) > 1 else "An agent of the only class there is"
-        head(figure, what, f"{TITLES[condition]}; nearest in success to the mean of its class")
+        trials = f"in {2 * PER_AREA} trials of each instruction"
+        head(figure, what, f"{TITLES[condition]}; nearest in success to the mean of its class; {trials}")
         left = 0.45 / figure.get_size_inches()[0]
         grid = figure.add_gridspec(len(instructions), len(fans), hspace=0.42, wspace=0.1)
         grid.update(left=left, right=0.985, top=1 - HEAD / height, bottom=foot / height)
+        end = DT * max(int(fan.behaviour.steps.max()) for fan in fans)  # the same for all, to be compared
         for column, fan in enumerate(fans):
-            end = DT * fan.behaviour.steps.max()
             for row, instruction in enumerate(instructions):
                 cell = grid[row, column].subgridspec(2, 1, height_ratios=(2.4, 1), hspace=0.08)
                 above, below = figure.add_subplot(cell[0]), figure.add_subplot(cell[1])
@@ -106,8 +107,8 @@ def _trim(above: Axes, below: Axes, end: float, column: int, lowest: bool) -> No
         axes.set_xlim(0, end)
         axes.tick_params(left=not column, labelleft=not column, bottom=lowest and axes is below)
     if not column:
-        above.set_ylabel("alpha [°]", fontsize=SMALL)
-        below.set_ylabel("beta", fontsize=SMALL)
+        above.set_ylabel("\u03b1 [°]", fontsize=SMALL)
+        below.set_ylabel("\u03b2 [°]", fontsize=SMALL)
     if lowest:
         below.set_xlabel("time [s]")
     else:

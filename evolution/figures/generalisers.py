@@ -28,8 +28,8 @@ FULL_COLOUR, PARTIAL_COLOUR = CLASS_COLOURS[AgentClass.FULL], CLASS_COLOURS[Agen
 TALL, MIDDLE, FLAT = 0.55, 0.34, 0.145
 # Generations that share one cell of the drawing of partial agents.
 CELL: Final = 5
-# Beyond so many marks in a run they are drawn smaller.
-MANY: Final = 150
+# The same in every run, without an edge: a mark that hid its neighbours would make many look like few.
+MARK: Final = {"ls": "", "marker": "d", "ms": 3.6, "mew": 0, "color": FULL_COLOUR}
 
 
 def generalisers_figure(results: Results) -> Figure:
@@ -39,13 +39,13 @@ def generalisers_figure(results: Results) -> Figure:
     ]
     tall = [max(sum(own), FLAT) for own in heights]
     with look(STYLE):
-        figure = Figure(figsize=(FULL, 0.7 + sum(tall) + 0.3 * len(tall)), layout="constrained")
+        figure = Figure(figsize=(FULL, 0.85 + sum(tall) + 0.3 * len(tall)), layout="constrained")
         panels = figure.subplots(len(tall), 1, sharex=True, squeeze=False, height_ratios=tall)[:, 0]
         for axes, own, (condition, found) in zip(panels, heights, results.conditions.items(), strict=True):
             _draw_condition(axes, found, own)
             axes.set_title(TITLES[condition], fontweight="bold")
         panels[-1].set_xlabel("generation")
-        figure.legend(handles=_handles(), loc="outside lower center", ncols=2)
+        figure.legend(handles=_handles(), loc="outside lower center")
     return figure
 
 
@@ -94,9 +94,7 @@ def draw_density(
 def draw_marks(axes: Axes, found: Generalisers, top: float, bottom: float) -> None:
     """Fully compositional agents, each in the lane of its rank, the generation's best in the top lane."""
     lanes = top - (found.ranks + 0.5) * (top - bottom) / N_BEST
-    size = 5.5 if len(found) <= MANY else 3.0
-    look = {"color": FULL_COLOUR, "mec": "white", "mew": 0.5, "zorder": 3, "clip_on": False}
-    axes.plot(found.generations, lanes, "d", ms=size, **look)
+    axes.plot(found.generations, lanes, zorder=3, clip_on=False, **MARK)
 
 
 def _note(axes: Axes, results: ConditionResults, run: int, middle: float) -> None:
@@ -115,6 +113,9 @@ def _members(results: ConditionResults, run: int, kind: AgentClass) -> NDArray[n
 
 
 def _handles() -> list[Line2D | Patch]:
-    mark = Line2D([], [], ls="", marker="d", ms=5.5, color=FULL_COLOUR, mec="white")
-    mark.set_label("a fully compositional agent; lanes: the five best of a generation, the best on top")
-    return [mark, Patch(color=PARTIAL_COLOUR, alpha=0.75, lw=0, label="partially compositional agents")]
+    full = "a fully compositional agent; lanes: the five best of a generation, the best on top"
+    partial = f"partially compositional agents, paler where fewer of {CELL} generations have one"
+    return [
+        Line2D([], [], label=full, **MARK),
+        Patch(color=PARTIAL_COLOUR, alpha=0.75, lw=0, label=partial),
+    ]

@@ -13,6 +13,7 @@ from matplotlib.ticker import PercentFormatter
 from arm2d.drawing import FULL, OBJECT_COLOURS, STYLE, look
 from evolution.figures.page import FAINT, SERIES, headed
 from evolution.results.learning import TRIALS, LearningCurve
+from evolution.results.wording import TITLES
 
 # Learning from nothing is shown at a time that a logarithmic axis has [s].
 SOONEST: Final = 0.1
@@ -38,8 +39,10 @@ def learning_figure(curves: Sequence[LearningCurve]) -> Figure:
 
 def _draw_over_time(axes: Axes, curves: Sequence[LearningCurve], colours: Mapping[str, str]) -> None:
     for curve in curves:
-        time, colour = curve.cpu.clip(min=SOONEST), colours[curve.learner]
-        axes.plot(time, curve.experienced, color=colour, lw=1.0, alpha=0.8, label=curve.learner)
+        early = int((curve.cpu <= SOONEST).sum())
+        shown = slice(max(early - 1, 0), None)  # of what an axis cannot tell apart, the last
+        time, colour = curve.cpu.clip(min=SOONEST)[shown], colours[curve.learner]
+        axes.plot(time, curve.experienced[shown], color=colour, lw=1.0, alpha=0.8, label=curve.learner)
     axes.set_title("the seven, on average")
     axes.set(xscale="log", ylim=(-0.02, 1.02), xlabel="processor time [s]", ylabel="trials carried out")
     axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0, symbol=" %"))
@@ -71,6 +74,5 @@ def _draw_in_the_end(axes: Axes, curves: Sequence[LearningCurve], colours: Mappi
 
 
 def _origin(curves: Sequence[LearningCurve]) -> str:
-    seeds = ", ".join(str(seed) for seed in sorted({curve.seed for curve in curves}))
     tests = f"tests of {TRIALS} fresh trials of each instruction"
-    return f"{curves[0].condition}, seeds {seeds}; {tests}; one processor core"
+    return f"{TITLES[curves[0].condition]}, a line a seed; {tests}; one processor core"

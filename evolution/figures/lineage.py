@@ -88,7 +88,7 @@ def skill_rows(scores: LineageScores) -> list[tuple[str, Sequence[Row]]]:
         for column, instruction in enumerate(scores.condition.instructions)
     ]
     groups = [(action.name, rows[3 * i : 3 * i + 3]) for i, action in enumerate(actions)]
-    return [("S1 on the target, S2 bent", bent), *groups]
+    return [("S1 on the target, S2 bent, for 1 s", bent), *groups]
 
 
 def _instruction_row(instruction: Instruction, shares: NDArray[np.float64], first: int, for_good: int) -> Row:
@@ -112,11 +112,12 @@ def draw_skill(axes: Axes, row: Row) -> None:
     if row.never_met:
         axes.spines[:].set(visible=True, color=row.colour, linestyle=(0, (4, 2.5)), linewidth=0.8)
         axes.set_ylabel(f"never met   {row.label}", rotation=0, ha="right", va="center", color=row.colour)
-    if row.for_good not in (NEVER, row.first):
+    # What came with the last few generations has had no time to go again.
+    lasts = row.for_good not in (NEVER, row.first) and row.for_good <= len(row.shares) - IN_A_ROW
+    if lasts:
         _mark(axes, row.for_good, FAINT, leftwards=_place(axes, row.for_good) > 0.94)
     if row.first != NEVER:
-        two = row.for_good not in (NEVER, row.first)
-        room = 0.07 if two else 0.94
+        room = 0.07 if lasts else 0.94
         _mark(axes, row.first, INK, leftwards=_place(axes, row.first) > room)
 
 
@@ -146,7 +147,7 @@ def _legend(scores: LineageScores) -> str:
         f"Height of a row: share of {2 * scores.per_area} trials carried out, 0 to 100 %. "
         "Flags: generation in which the skill first came\n"
         f"(black: {IN_A_ROW} generations in a row above 75 %) and in which it came for good, "
-        "if later (grey: the agent and nine tenths of the rest too).\n"
+        f"if later (grey: {IN_A_ROW} at least,\nthe agent, and nine tenths of the rest). "
         "S2 bent: beta above 45° while S1 is on the target, for a second (dark) or at all (pale)."
     )
 

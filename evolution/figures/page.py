@@ -19,7 +19,7 @@ from typing import Any, Final
 
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.colors import LinearSegmentedColormap, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -98,8 +98,20 @@ def beside(
 
 
 def ink_on(share: float) -> str:
-    """The colour of text on that of a share in `SUCCESS_MAP`."""
-    return "white" if share > 0.55 else INK
+    """The colour of text on that of a share in `SUCCESS_MAP`: what stands out more."""
+    ground = SUCCESS_MAP(share)
+    return max((INK, "white"), key=lambda ink: contrast(ink, ground))
+
+
+def contrast(one: Any, other: Any) -> float:
+    """Contrast of two colours, from 1 to 21, as WCAG 2.2 defines it."""
+    darker, lighter = sorted(_luminance(colour) for colour in (one, other))
+    return (lighter + 0.05) / (darker + 0.05)
+
+
+def _luminance(colour: Any) -> float:
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in to_rgb(colour)]
+    return sum(weight * c for weight, c in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
 
 
 def save_figure(figure: Figure, stem: Path | str) -> list[Path]:

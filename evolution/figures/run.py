@@ -26,6 +26,8 @@ from evolution.runs.history import History
 from evolution.search.evaluation import Evaluation
 from evolution.search.settings import LARGEST_FITNESS
 
+# Generations that a running median is of.
+MEDIAN_OF: Final = 51
 BEST_COLOUR: Final = OURS
 MEAN_COLOUR: Final = SERIES[3]
 
@@ -111,7 +113,7 @@ def _fitness_label(largest: float) -> str:
     return "fitness, mean of 28 trials" if largest == LARGEST_FITNESS else "fitness"
 
 
-def running_median(values: NDArray[np.float64], width: int = 51) -> NDArray[np.float64]:
+def running_median(values: NDArray[np.float64], width: int = MEDIAN_OF) -> NDArray[np.float64]:
     """Median of the `width` generations around each, fewer at both ends, [G]."""
     half = width // 2
     padded = np.pad(values, half, constant_values=np.nan)

@@ -40,7 +40,7 @@ def state_space_figure(behaviour: Behaviour, origin: str = "") -> Figure:
             axes.set_xlabel(f"first component, {100 * shares[0]:.0f} % of variance")
         panels[0].set_ylabel(f"second component, {100 * shares[1]:.0f} %")
         handles = object_handles() + _path_handles()
-        figure.legend(handles=handles, loc="lower center", ncols=8)
+        figure.legend(handles=handles, loc="lower center", ncols=5)
     return figure
 
 
@@ -61,7 +61,7 @@ def principal_plane(
 
 
 def draw_paths(axes: Axes, behaviour: Behaviour, points: NDArray[np.float64], action: int) -> None:
-    """Paths [T, 251, 2] of some trials of an action word in the objects' colours."""
+    """Paths [T, 251, 2] of some trials of an action word in the objects' colours, as means of two steps."""
     for trial in np.flatnonzero(behaviour.actions == action):
         own = np.flatnonzero(
             (behaviour.instructions == behaviour.instructions[trial])
@@ -69,8 +69,9 @@ def draw_paths(axes: Axes, behaviour: Behaviour, points: NDArray[np.float64], ac
         )
         if trial not in own[:SHOWN_PER_AREA]:
             continue
-        colour, path = OBJECT_COLOURS[ObjectWord(behaviour.objects[trial])], points[trial]
-        axes.plot(*path.T, color=colour, lw=0.7, alpha=0.8)
+        colour = OBJECT_COLOURS[ObjectWord(behaviour.objects[trial])]
+        path = without_alternation(points[trial])
+        axes.plot(*path.T, color=colour, lw=0.6, alpha=0.8)
         events = (
             (0, "s", INK),
             (behaviour.first_sight[trial], "o", "white"),
@@ -79,8 +80,19 @@ def draw_paths(axes: Axes, behaviour: Behaviour, points: NDArray[np.float64], ac
         )
         for row, marker, face in events:
             if row != NEVER:
-                axes.plot(*path[row], marker, ms=3.6, mfc=face, mec=INK, mew=0.5, zorder=4)
+                axes.plot(
+                    *path[min(row, len(path) - 1)], marker, ms=3.6, mfc=face, mec=INK, mew=0.5, zorder=4
+                )
     axes.set_aspect("equal", adjustable="box")
+
+
+def without_alternation(path: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A path [K + 1, 2], then nothing, as the means of successive steps [K, 2].
+
+    Some neurons alternate from step to step, and the lines to and fro would hide everything.
+    """
+    own = path[np.isfinite(path).all(axis=-1)]
+    return (own[:-1] + own[1:]) / 2
 
 
 def draw_cube(axes: Axes, mean: NDArray[np.float64], plane: NDArray[np.float64]) -> None:
@@ -102,7 +114,10 @@ def draw_cube(axes: Axes, mean: NDArray[np.float64], plane: NDArray[np.float64])
         way = (tip - origin) / max(length, 1e-9)
         look = {"fontsize": SMALL, "color": FAINT, "ha": "center", "va": "center", "zorder": 5}
         if count <= MOST_EDGES_DRAWN:
-            beside(axes, f"neuron {neuron + 1}", tip, 7 * way, **look)
+            sideways = abs(way[0]) > 0.5
+            if sideways:  # below the tip, lest it stick out of the frame
+                look["ha"] = "right" if way[0] > 0 else "left"
+            beside(axes, f"neuron {neuron + 1}", tip, (0, -12) if sideways else 7 * way, **look)
         elif length >= LEAST_NAMED:
             axes.plot(*np.array([origin, tip]).T, color=CUBE_COLOUR, lw=0.6, zorder=0)
             beside(axes, f"{neuron + 1}", tip, 4 * way, **look)
@@ -128,7 +143,9 @@ def _path_handles() -> list[Line2D]:
         ("X", FAINT, "end"),
     )
     cube = Line2D([], [], color=CUBE_COLOUR, lw=0.6, label="where outputs can be")
+    path = Line2D([], [], color=INK, lw=0.6, label="a trial, mean of two steps each")
     return [
+        path,
         *(
             Line2D([], [], ls="", marker=marker, ms=3.6, mfc=face, mec=INK, mew=0.5, label=label)
             for marker, face, label in marks

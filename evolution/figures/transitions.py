@@ -39,7 +39,8 @@ def transitions_figure(results: Results) -> Figure:
             axes.set_xlabel("successful trials [%]")
         needed = Line2D([], [], color=FAINT, lw=0.8, ls=PAPER_DASHES)
         needed.set_label(f"to pass, an agent needs more than {NEEDED} % in every transition")
-        figure.legend(handles=[needed], loc="outside lower center")
+        mean = Line2D([], [], ls="", marker="o", ms=4, color=FAINT, label="mean over all agents of a class")
+        figure.legend(handles=[mean, needed], loc="outside lower center", ncols=2)
     return figure
 
 

@@ -79,18 +79,25 @@ def _difference(results: Results, shown: dict[Condition, ConditionResults]) -> s
     if COMPARED not in results.comparisons:
         (only,) = shown
         return f"Only {TITLES[only]} runs can be analysed, so the conditions are not compared."
-    first, second = (percent(mean) for mean in results.comparisons[COMPARED].means)
-    share = f"of the With-Indicate agents {first} are fully compositional, of the With-Ignore agents {second}"
     p, name = min((comparison.mann_whitney_p, name) for name, comparison in results.comparisons.items())
+    full = f"Fully compositional are {_shares(results, COMPARED)}"
     if p >= LEVEL:
         return (
             f"No difference between the conditions can be claimed (smallest p of all comparisons, runs being "
-            f"the unit: {p_value(p)}), while the paper claims one: {share}."
+            f"the unit: {p_value(p)}), while the paper claims one. {full}."
         )
-    return (
-        f"The conditions differ most in {name} (p = {p_value(p)}, runs being the unit, "
-        f"smallest of {len(results.comparisons)} comparisons): {share}."
+    told = (
+        f"The conditions differ most in {name}: {_shares(results, name)} (p = {p_value(p)}, runs being the "
+        f"unit, smallest of {len(results.comparisons)} comparisons)."
     )
+    own = p_value(results.comparisons[COMPARED].mann_whitney_p)
+    return told if name == COMPARED else f"{told} {full} (p = {own})."
+
+
+def _shares(results: Results, name: str) -> str:
+    """What is compared, in both conditions."""
+    first, second = (percent(mean) for mean in results.comparisons[name].means)
+    return f"{first} of the With-Indicate agents and {second} of the With-Ignore agents"
 
 
 def _and(parts: Iterable[str]) -> str:

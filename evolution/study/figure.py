@@ -33,7 +33,8 @@ from evolution.results.wording import TITLES
 from evolution.study.drawn import AND, Drawn, base_of
 from evolution.study.table import interval
 
-DEFAULT: Final = "default"
+# What tables call the default of then, and pictures by its name: another has taken its place.
+DEFAULT, PLAIN_READINGS = "default", "plain"
 ROW_HEIGHT: Final = 0.19  # [inch]
 
 
@@ -163,8 +164,8 @@ def row_names(variants: Sequence[Drawn]) -> list[str]:
 
 
 def readable(reading: str) -> str:
-    """A reading's name for people: `mutation-sd-0.03` in words."""
-    return reading.replace("-", " ")
+    """A reading's name for people: `mutation-sd-0.03` in words; what the tables call the default is plain."""
+    return PLAIN_READINGS if reading == DEFAULT else reading.replace("-", " ")
 
 
 def _about(variants: Sequence[Drawn]) -> str:

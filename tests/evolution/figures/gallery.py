@@ -30,16 +30,21 @@ from evolution.runs.sources import find_agent
 from evolution.search.evaluation import evaluate
 from evolution.study.beyond.answers import comparisons, groups_of
 from evolution.study.beyond.figure import cells_figure
+from evolution.study.declared.claim_figure import claim_figure
+from evolution.study.declared.confirmation.less_one import Cost
+from evolution.study.declared.confirmation.less_one_figure import less_one_figure
+from evolution.study.declared.confirmation.verdict import JUDGED
+from evolution.study.declared.confirmation.worlds import departures
 from evolution.study.declared.levels_figure import levels_figure
 from evolution.study.declared.outcomes import OUTCOMES
-from evolution.study.declared.regression import N_MAIN, Model, level_numbers
+from evolution.study.declared.regression import N_MAIN, Estimate, Model, level_numbers
 from evolution.study.drawn import Drawn
 from evolution.study.figure import effects_figure, failures_figure
 from models.robots import ROBOTS
 from mujoco_port.film.gl import choose_back_end
 from tests.evolution.made_up import both_conditions
 from tests.evolution.study.beyond.made_up import made_study
-from tests.evolution.study.declared.synthetic import configs, made_up
+from tests.evolution.study.declared.synthetic import configs, made_up, made_up_answers
 
 choose_back_end()  # before anything imports mujoco: other tests draw in this process
 
@@ -159,6 +164,16 @@ def curves():
     return found
 
 
+def departures_costs():
+    """What each departure of the default is worth in each figure, made up."""
+    rng = np.random.default_rng(8)
+    return [
+        Cost(factor, outcome, rng.normal(0, 0.2, 20), Estimate(-0.1, -0.2, 0.1), 0.1, 0.2 * (k % 2), 3, 14)
+        for k, factor in enumerate(departures(Readings()))
+        for outcome in JUDGED
+    ]
+
+
 FIGURES = {
     "learning": lambda: learning_figure(curves()),
     "heat-map": lambda: heat_map(evaluate(agent().genotype, INDICATE, Readings()), ORIGIN),
@@ -186,6 +201,8 @@ FIGURES = {
     "failures": lambda: failures_figure(screening()),
     "failures-on-top": lambda: failures_figure(on_top(), variant("mutation-sd-0.03")),
     "levels": lambda: levels_figure(models(), "What each reading does when all are mixed", "300 runs"),
+    "claim": lambda: claim_figure(made_up_answers(), "Does INDICATE foster compositionality?", "200 runs"),
+    "less-one": lambda: less_one_figure(departures_costs(), Readings(), "One departure less", "180 runs"),
     "beyond": lambda: cells_figure(cells := groups_of(made_study(range(201, 209))), comparisons(cells)),
     "workspace": lambda: draw_certificate(certificate(), ROBOTS["icub"]),
 }

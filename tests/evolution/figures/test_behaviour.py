@@ -206,7 +206,10 @@ def test_shares_of_variance_are_stacked_in_the_colours_of_the_legend():
 
 
 def test_paths_of_an_action_word_have_the_colours_of_its_objects_and_marks_at_events(behaviour):
+    """They are drawn as means of two steps."""
     points = np.random.default_rng(24).random((len(behaviour), 251, 2))
+    for trial, n_steps in enumerate(behaviour.steps):
+        points[trial, n_steps + 1 :] = np.nan
     for action in range(3):
         axes = Figure().add_subplot()
         draw_paths(axes, behaviour, points, action)
@@ -215,7 +218,8 @@ def test_paths_of_an_action_word_have_the_colours_of_its_objects_and_marks_at_ev
         assert len(paths) == len(trials) == 12
         expected = set()
         for line, trial in zip(paths, trials, strict=True):
-            np.testing.assert_array_equal(line.get_xydata(), points[trial])
+            means = [(points[trial, k] + points[trial, k + 1]) / 2 for k in range(behaviour.steps[trial])]
+            np.testing.assert_array_equal(line.get_xydata(), means)
             colour = OBJECT_COLOURS[ObjectWord(behaviour.objects[trial])].lower()
             assert to_hex(line.get_color()) == colour
             events = {
@@ -224,7 +228,10 @@ def test_paths_of_an_action_word_have_the_colours_of_its_objects_and_marks_at_ev
                 ("D", colour): behaviour.first_touch[trial],
                 ("X", colour): behaviour.steps[trial],
             }
-            expected |= {(*points[trial, row].tolist(), *look) for look, row in events.items() if row != -1}
+            last = behaviour.steps[trial] - 1
+            expected |= {
+                (*means[min(row, last)].tolist(), *look) for look, row in events.items() if row != -1
+            }
         assert marks(axes) == expected
 
 

@@ -56,6 +56,13 @@ def test_a_skill_that_stayed_has_one_flag_and_one_that_never_came_none():
         assert flags(axes) == expected
 
 
+def test_what_came_with_the_last_generations_has_not_come_for_good():
+    for for_good, shown in ((1975, True), (1976, False)):
+        axes = Figure().add_subplot()
+        draw_skill(axes, Row("skill", "#123456", np.linspace(0, 1, 2000), 60, for_good))
+        assert (for_good in flags(axes)) is shown
+
+
 def test_every_row_shows_its_own_skill_in_the_colour_of_its_object(scores):
     figure = lineage_figure(scores, "agent")
     skills = [(scores.held_bent, i) for i in range(3)] + [(scores.success, i) for i in range(9)]
@@ -72,7 +79,9 @@ def test_every_row_shows_its_own_skill_in_the_colour_of_its_object(scores):
 
 def test_rows_are_grouped_by_the_word_that_is_heard(scores):
     groups = skill_rows(scores)
-    assert [title for title, _ in groups] == ["S1 on the target, S2 bent", "MOVE", "TOUCH", "INDICATE"]
+    (bent, _), *rest = groups
+    assert bent == "S1 on the target, S2 bent, for 1 s"
+    assert [title for title, _ in rest] == ["MOVE", "TOUCH", "INDICATE"]
     for title, rows in groups[1:]:
         for row, object_ in zip(rows, ("Blue", "Green", "Red"), strict=True):
             word = f"{title} {object_}"

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from arm2d.drawing import COLUMN, FULL, OBJECT_COLOURS, STYLE
-from evolution.figures.page import CLASS_COLOURS, CONDITION_COLOURS, SERIES
+from evolution.figures.page import CLASS_COLOURS, CONDITION_COLOURS, SERIES, SUCCESS_MAP, contrast, ink_on
 from evolution.search.settings import LARGEST_FITNESS
 from tests.evolution.figures.gallery import FIGURES
 from tests.evolution.figures.printed import cut_off, on_each_other, texts_of, too_small, unexplained
@@ -115,6 +115,13 @@ def test_colours_that_are_no_objects_are_far_from_all_objects():
     for other in others:
         for colour in OBJECT_COLOURS.values():
             assert np.linalg.norm(np.subtract(to_rgb(other), to_rgb(colour))) > 0.3, (other, colour)
+
+
+@pytest.mark.parametrize("share", np.linspace(0, 1, 21))
+def test_numbers_on_shares_can_be_read(share):
+    """The contrast that WCAG 2.2 asks for, of the better of two inks."""
+    assert contrast(ink_on(share), SUCCESS_MAP(share)) > 4.45
+    assert contrast("#777777", "white") == pytest.approx(4.48, abs=0.01)  # a known pair
 
 
 def test_letters_of_the_style_can_be_read_in_print():

@@ -195,6 +195,21 @@ def test_the_result_is_three_sentences_from_the_data(results):
     assert sentences[2].startswith("No difference between the conditions can be claimed (smallest p")
 
 
+def test_where_the_conditions_differ_the_shares_are_those_of_the_comparison_that_is_named(results):
+    names = list(results.comparisons)
+    told = {
+        name: replace(own, means=(0.01 * k, 0.5 + 0.01 * k), mann_whitney_p=0.9 - 0.1 * k)
+        for k, (name, own) in enumerate(results.comparisons.items())
+    }
+    least = names[2]
+    told[least] = replace(told[least], mann_whitney_p=0.001)
+    sentence = result_sentences(replace(results, comparisons=told))[2]
+    full = names.index("fully compositional agents")
+    assert f"differ most in {least}: 2.0 % of the With-Indicate agents and 52.0 % of the With-Ig" in sentence
+    assert "(p = 0.001, runs being the unit, smallest of 7 comparisons)" in sentence
+    assert f"Fully compositional are {full}.0 % of the With-Indicate agents and 5{full}.0 %" in sentence
+
+
 def test_the_best_agents_live_at_the_top_of_the_page(text, results):
     players = json.loads(
         re.search(r'<div class="wordarm">\s*<script[^>]*>(.*?)</script>', text, re.DOTALL)[1]

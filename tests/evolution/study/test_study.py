@@ -285,7 +285,7 @@ def test_figures_show_every_variant_and_the_published_values(measured):
     variants = [drawn(variant) for variant in group(measured[1])]
     effects = effects_figure(variants)
     labels = [label.get_text() for label in effects.axes[0].get_yticklabels()]
-    assert labels == ["default", "object radius 8"]
+    assert labels == ["plain", "object radius 8"]
     dashed = [np.asarray(line.get_xdata()) for line in effects.axes[2].lines if line.get_linestyle() == "--"]
     np.testing.assert_allclose(dashed, [[60.231, 60.231]])
     failures = failures_figure(variants)

@@ -39,7 +39,7 @@ LABELS: Final = {
     "a": "A",
     "b": "B",
     "smallest-departure": "smallest\ndeparture",
-    DEFAULT: "default\nof then",
+    DEFAULT: "plain",
     PRINTED: "printed",
 }
 # By the part of the study.

@@ -77,7 +77,7 @@ def _draw(axes: Axes, cost: Cost, row: int) -> None:
 
 def _head(axes: Axes) -> None:
     """What the counts at the right end of the plateaus are."""
-    style = {"va": "bottom", "ha": "left", "fontsize": SMALL - 1}
+    style = {"va": "bottom", "ha": "left", "fontsize": SMALL}
     beside(
         axes, "at 18/7,\nwithout : with", (1.0, -0.5), (4.0, 2.0), xycoords=RIGHT_END, color=FAINT, **style
     )

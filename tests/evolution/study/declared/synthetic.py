@@ -3,8 +3,10 @@
 import numpy as np
 
 from arm2d import Condition
+from evolution.study.declared.claim import FULL, QUESTIONS, Answer
 from evolution.study.declared.factors import FACTORS, levels_of
 from evolution.study.declared.parts import factorial
+from evolution.study.declared.regression import Estimate
 from evolution.study.declared.rows import COUNTS, MeasuredRun
 
 PLACES = {factor.name: place for place, factor in enumerate(FACTORS)}
@@ -54,3 +56,22 @@ def runs_with_effects(seed=0):
             made_up(config, plateau + rng.normal(0, 0.1), (share, share / 9, share / 15, share / 300), solved)
         )
     return runs
+
+
+def made_up_answers():
+    """Every question of the claim answered from two sources; every third by few runs of one condition."""
+    names = [question.name for question in QUESTIONS] + [f"runs with {FULL} agents"]
+    return {
+        source: [
+            Answer(
+                name,
+                (9, 9) if k % 3 else (12, 4),
+                (1.0 - 0.01 * k, 0.0123),
+                Estimate(0.3 + 0.01 * k + shift, 0.2 + shift, 0.6 + shift),
+                0.01,
+                corrected=0.2 * (k % 2),
+            )
+            for k, name in enumerate(names)
+        ]
+        for source, shift in (("default", 0.0), ("printed", 0.05))
+    }

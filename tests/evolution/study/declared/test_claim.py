@@ -16,7 +16,6 @@ from evolution.study.declared.beta_binomial import compare_counts
 from evolution.study.declared.claim import (
     FULL,
     QUESTIONS,
-    Answer,
     answer_table,
     answers,
     averaged_over_worlds,
@@ -29,7 +28,7 @@ from evolution.study.declared.parts import DeclaredPart
 from evolution.study.declared.plan import RowFile, carry_out
 from evolution.study.declared.regression import Estimate
 from evolution.study.declared.rows import write_rows
-from tests.evolution.study.declared.synthetic import configs, made_up, runs_with_effects
+from tests.evolution.study.declared.synthetic import configs, made_up, made_up_answers, runs_with_effects
 
 AGENTS = 10_000
 
@@ -223,22 +222,9 @@ def test_without_the_worlds_the_claim_is_told_so_and_its_tables_are_written(tmp_
 
 
 def test_picture_has_every_answer_of_every_source_beside_its_means():
-    """Read back: where dots and intervals lie, which are filled, and what is written beside them."""
-    names = [question.name for question in QUESTIONS] + [f"runs with {FULL} agents"]
-    sources = {
-        source: [
-            Answer(
-                name,
-                (9, 9),
-                (1.0 - 0.01 * k, 0.0123),
-                Estimate(0.3 + 0.01 * k + shift, 0.2 + shift, 0.6 + shift),
-                0.01,
-                corrected=0.2 * (k % 2),
-            )
-            for k, name in enumerate(names)
-        ]
-        for source, shift in (("default", 0.0), ("printed", 0.05))
-    }
+    """Read back: where dots and intervals lie, which are filled or pale, and what is written beside them."""
+    sources = made_up_answers()
+    names = [answer.question for answer in sources["default"]]
     figure = claim_figure(sources, "title")
     given = {
         (
@@ -246,7 +232,9 @@ def test_picture_has_every_answer_of_every_source_beside_its_means():
             round(100 * answer.difference.low, 6),
             round(100 * answer.difference.high, 6),
             answer.corrected < 0.05,
-            f"{100 - names.index(answer.question)} : 1.2 %",
+            min(answer.runs) < 5,
+            f"{100 - names.index(answer.question)} : 1.2 % of {answer.runs[0]}"
+            + ("" if answer.runs == (9, 9) else f" : {answer.runs[1]}"),
         )
         for found in sources.values()
         for answer in found
@@ -257,8 +245,9 @@ def test_picture_has_every_answer_of_every_source_beside_its_means():
         lines = [line for line in axes.lines if line.get_label() != "zero"]
         for interval, dot, text in zip(lines[0::2], lines[1::2], written, strict=True):
             (low, high), (value,) = interval.get_xdata(), dot.get_xdata()
-            filled = dot.get_markerfacecolor() != "white"
-            drawn.add((round(value, 6), round(low, 6), round(high, 6), filled, text))
+            filled, pale = dot.get_markerfacecolor() != "white", dot.get_alpha() < 1
+            assert interval.get_alpha() == dot.get_alpha()
+            drawn.add((round(value, 6), round(low, 6), round(high, 6), filled, pale, text))
     assert drawn == given
 
 
