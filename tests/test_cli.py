@@ -196,7 +196,14 @@ def test_a_sound_run_needs_no_repair(run, capsys):
             "file is a file; choose another folder",
         ),
         (["verify", "{empty}"], "holds no run"),
-        (["verify", "{none}", "--repair"], "is not a folder"),
+        (["verify", "{none}", "--repair"], "is not there; give the folder of a run, or an archive"),
+        (["verify", "{none}.tar.gz", "--unpack={empty}"], "is not there; give the folder of a run, or an ar"),
+        (["verify", "{run}/champions.npz"], "champions.npz is no archive of results; give such as results"),
+        (["evaluate", "{run}", "--trial-seed=-1"], "a seed of -1 was asked for; give 0 or more"),
+        (["evaluate", "{above}"], "is no run but holds some; give one of them, such as"),
+        (["workspace", "--seed=7"], "--evaluations and --seed are about --search; leave them out, or search"),
+        (["workspace", "--search", "--evaluations=0"], "--evaluations 0 must be at least 1"),
+        (["workspace", "--search", "--seed=-1"], "--seed -1 must be at least 0"),
         (["verify", "{empty}", "--repair"], "holds no run"),
         (["behaviour", "{run}", "--agents=3"], "--agents and --no-figures are about classes"),
         (["behaviour", "{run}", "--classes", "--rank=1"], "name one agent; leave them out"),
@@ -238,6 +245,7 @@ def test_bad_input_gets_one_sentence_and_exit_code_2(run, tmp_path, capsys, argu
     (tmp_path / "link").symlink_to("nowhere")
     places = {
         "run": run,
+        "above": run.parent,
         "file": tmp_path / "file",
         "empty": tmp_path / "empty",
         "none": tmp_path / "none",

@@ -1,6 +1,6 @@
 """The seven instructions learnt by gradients: PPO of Stable-Baselines3, with one of two memories or none.
 
-    pip install 'wordarm[rl]'
+    pip install -c constraints.txt '.[rl]'
     python docs/examples/ppo.py FOLDER --steps 8_000_000 --seed 1
 
 FOLDER gets the learning curve (curve.csv, curve.png, curve.svg) and the policy (policy.npz). Given again, the

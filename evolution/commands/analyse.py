@@ -122,13 +122,14 @@ class Analyse:
 def _write(results: Results, output: Path, shipped: Path | None) -> None:
     """Write tables, figures and, if they are asked for, notable agents."""
     from evolution.report.files import summary, write_results
-    from evolution.results.notable import ship
+    from evolution.results.notable import described, notable_agents, ship
 
-    paths = write_results(results, output)
-    if shipped is not None:
-        paths = [*paths, *ship(results, shipped)]
-    for path in paths:
+    for path in write_results(results, output):
         print(path)
+    if shipped is not None:
+        agents = notable_agents(results)
+        for path in ship(results, shipped):
+            print(f"{path}: {described(agents[path.stem])}")
     print(summary(results))
 
 

@@ -110,9 +110,12 @@ class BehaviourCommand(AgentCommand):
 
 def _is_experiment(path: Path) -> bool:
     """Whether a folder holds runs and is none itself."""
+    from evolution.experiments.plan_file import LAYOUTS
     from evolution.runs.folder import CONFIG
 
-    return path.is_dir() and not (path / CONFIG).exists() and any(path.glob(f"*/*/{CONFIG}"))
+    if not path.is_dir() or (path / CONFIG).exists():
+        return False
+    return any(next(path.glob(f"{layout}/{CONFIG}"), None) for layout in LAYOUTS)
 
 
 def _write(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from tyro.conf import Positional, arg
 
+from arm2d import Condition
 from evolution.answers import BAD_INPUT, INTERRUPTED
 from evolution.commands.cluster_flags import ClusterFlags
 
@@ -54,7 +55,7 @@ class ExperimentCommand:
         """Evolve; the exit code is 130 if it was stopped, 2 if a run was given up."""
         from rich.console import Console
 
-        from evolution.experiments.device.jobs import device_shares
+        from evolution.experiments.device.jobs import check_device, device_shares
         from evolution.experiments.jobs import tell_failures
         from evolution.experiments.plan_runner import plan_lines, processes, run_plan_shown
         from evolution.runs.interrupt import StopRequest
@@ -65,14 +66,17 @@ class ExperimentCommand:
         self.cluster.check()
         plan, at_once, console = self.cluster.placed(spec.plan()), processes(spec.jobs), Console()
         plan.check()
+        check_device(self.device, plan.configs)
         if self.dry_run:
             width = console.width if console.is_terminal else None
             print("\n".join([*plan_lines(plan, at_once, width), f"{plan.folder}: {_count(plan, spec)}"]))
+            if len(spec.conditions) > len(Condition):
+                print(f"conditions: {', '.join(str(each) for each in spec.conditions)}")
+            if self.device != "cpu":
+                print(f"times are the processor's; how much faster {self.device} is stands in docs/speed.md")
             return self.cluster.show_script(plan.folder) if self.cluster.slurm else 0
         with self.cluster.opened(plan.folder, console) as elsewhere:
             shares = device_shares(self.device, spec.jobs, elsewhere.threads() if elsewhere else None)
-            if shares:
-                shares.check(plan.configs)
             make_folder(plan.folder)
             with locked(plan.folder), StopRequest() as stop:
                 at_once_there = elsewhere.threads() if elsewhere else at_once

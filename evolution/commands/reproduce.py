@@ -72,7 +72,7 @@ class Reproduce(FromPreset):
         """Reproduce; the exit code is 130 if it was stopped, 2 if a job was given up."""
         from rich.console import Console
 
-        from evolution.experiments.device.jobs import device_shares
+        from evolution.experiments.device.jobs import check_device, device_shares
         from evolution.experiments.jobs import tell_failures
         from evolution.experiments.plan_runner import processes, run_plan_shown
         from evolution.runs.interrupt import StopRequest
@@ -83,12 +83,11 @@ class Reproduce(FromPreset):
         self.cluster.check()
         plan, began, console = self.cluster.placed(self.plan), time.monotonic(), Console()
         plan.check()
+        check_device(self.device, plan.configs)
         if self.dry_run:
             return self.cluster.show_script(plan.folder)
         with self.cluster.opened(plan.folder, console) as elsewhere:
             shares = device_shares(self.device, self.jobs, elsewhere.threads() if elsewhere else None)
-            if shares:
-                shares.check(plan.configs)
             make_folder(plan.folder)
             with locked(plan.folder):
                 with StopRequest() as stop:

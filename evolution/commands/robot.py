@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
+import numpy as np
 from tyro.conf import Positional, arg
 
 from arm2d import Readings
@@ -106,9 +109,12 @@ class Agree:
         """Carry out what the file does not hold yet, and print the counts."""
         if not self.sources:
             raise ValueError("no agent is named; give run folders, genotype files or shipped champions")
-        for name, number in (("starts", self.starts), ("processes", self.processes)):
-            if number is not None and number < 1:
-                raise ValueError(f"--{name} {number} makes no trials; give at least 1")
+        if not self.loops or len(set(self.loops)) < len(self.loops):
+            raise ValueError(f"--loops {' '.join(self.loops)}: give one or more, each of them once")
+        numbers = {"starts": (self.starts, 1), "processes": (self.processes, 1), "seed": (self.seed, 0)}
+        for name, (number, least) in numbers.items():
+            if number is not None and number < least:
+                raise ValueError(f"--{name} {number} makes no trials; give at least {least}")
         from mujoco_port.film.gl import choose_back_end, without_drawing
 
         if "camera" not in self.loops:
@@ -126,7 +132,7 @@ class Agree:
         from mujoco_port.acting.tally import tables
 
         get_robot(self.robot)
-        listed = jobs([candidate(name) for name in self.sources], self.loops, self.starts, self.seed)
+        listed = jobs(candidates(self.sources), self.loops, self.starts, self.seed)
         processes = self.processes or len(os.sched_getaffinity(0))
         console = Console()
         counted = list(
@@ -141,6 +147,24 @@ class Agree:
             console.print(table)
         print(self.output)
         return 0
+
+
+def candidates(sources: Sequence[str]) -> list[Candidate]:
+    """Whom to try; those that would be called alike by what the user calls them.
+
+    Raises:
+        ValueError: If one of them is named twice, in whatever way.
+    """
+    found = [candidate(source) for source in sources]
+    for (first, one), (second, other) in combinations(zip(sources, found, strict=True), 2):
+        alike = (one.name, one.readings) == (other.name, other.readings)
+        if alike and np.array_equal(one.genotype, other.genotype):
+            raise ValueError(f"{first} and {second} are the same agent; name each of them once")
+    names = [each.name for each in found]
+    return [
+        each if names.count(each.name) == 1 else replace(each, name=source)
+        for source, each in zip(sources, found, strict=True)
+    ]
 
 
 def candidate(name: str) -> Candidate:
@@ -185,6 +209,7 @@ class Workspace:
         from models.robots import get_robot
 
         robot = get_robot(self.robot)
+        self._check_search()
         if self.scale is not None:
             if not self.scale > 0.0:
                 raise ValueError(
@@ -197,6 +222,15 @@ class Workspace:
         robot = for_world(robot, Readings())
         with without_drawing():
             return self._search(robot) if self.search else self._certify(robot)
+
+    def _check_search(self) -> None:
+        """Refuse what a search cannot do, and what is about none."""
+        evaluations, seed = self.evaluations, self.seed
+        if not self.search and (evaluations, seed) != (Workspace.evaluations, Workspace.seed):
+            raise ValueError("--evaluations and --seed are about --search; leave them out, or search")
+        for name, number, least in (("evaluations", evaluations, 1), ("seed", seed, 0)):
+            if number < least:
+                raise ValueError(f"--{name} {number} must be at least {least}")
 
     def _certify(self, robot: Robot) -> int:
         from evolution.figures.page import save_figure

@@ -157,7 +157,7 @@ class StudyCommand:
 
     def _carry_out(self, study: DeclaredStudy | BeyondStudy, part: DeclaredPart) -> int:
         """Evolve and measure what has no row yet, and write what all rows say."""
-        from evolution.experiments.device.jobs import device_shares
+        from evolution.experiments.device.jobs import check_device, device_shares
         from evolution.experiments.jobs import tell_failures
         from evolution.experiments.plan_runner import processes
         from evolution.runs.interrupt import StopRequest
@@ -166,9 +166,8 @@ class StudyCommand:
         rows: RowFile[Any] = study.rows(part)
         known, failures = self._known(rows), ()
         if not self.now:
+            check_device(self.device, part.configs)
             shares = device_shares(self.device, self.jobs)
-            if shares:
-                shares.check(part.configs)
             with StopRequest() as stop:
                 at_once, folder = processes(self.jobs), rows.path.parent
                 failures = carry_out(rows, folder, at_once, stop, known.values(), shares)

@@ -4,6 +4,8 @@
     best-specialist    With-Indicate: masters the experienced instructions best, never a never-met one
     with-ignore        With-Ignore: as best-generaliser
 
+They are the nearest that there is: whether one is what its name says, `described` tells.
+
 `wordarm evaluate`, `wordarm port` and `find_agent` take these names.
 """
 
@@ -18,6 +20,7 @@ from numpy.typing import NDArray
 from arm2d import NON_EXPERIENCED, Condition
 from arm2d.records import brief
 from evolution.agents.postevaluation import N_INSTRUCTIONS, TRIALS
+from evolution.agents.subtasks import usually
 from evolution.results.records import ConditionResults, Results
 from evolution.runs.folder import RunFolder
 from evolution.runs.recorded import recorded_generation
@@ -67,6 +70,16 @@ def notable_agents(results: Results) -> dict[str, NotableAgent]:
         "with-ignore": ignore and best_agent(ignore),
     }
     return {name: agent for name, agent in found.items() if agent is not None}
+
+
+def described(agent: NotableAgent) -> str:
+    """How many instructions an agent carries out, met and never met, by the limit of the classes."""
+    condition, good = agent.run.config.papers_condition, usually(agent.successes)
+    met, never_met = (
+        f"{sum(bool(good[condition.instructions.index(word)]) for word in words)} of {len(words)}"
+        for words in (condition.experienced, condition.held_out)
+    )
+    return f"carries out {met} instructions it met and {never_met} it never met"
 
 
 def ship(results: Results, folder: Path) -> list[Path]:

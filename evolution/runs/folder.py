@@ -40,6 +40,10 @@ LOCK: Final = "lock"
 LEASE: Final = "lease"
 ANALYSES: Final = ("postevaluation", "transitions", "evaluation", "lineage", "behaviour", "measures")
 OWN_FILES: Final = {CONFIG, META, PARTS, CHECKPOINT, CHAMPIONS, LOCK, LEASE, *ANALYSES}
+# What commands put beside them unless they are given another place.
+BESIDE: Final = {"videos", "results", "report.html"}
+# Runs in an experiment, in one with variants.
+RUNS_BELOW: Final = (f"*/{CONFIG}", f"*/*/{CONFIG}", f"*/*/*/{CONFIG}")
 
 
 @dataclass(frozen=True)
@@ -67,6 +71,8 @@ class RunFolder:
             raise ValueError(f"{path} is not a folder; give the folder of a run, with its {CONFIG}")
         _refuse_links(path)
         if not config.is_file():
+            if below := next((found for layout in RUNS_BELOW for found in sorted(path.glob(layout))), None):
+                raise ValueError(f"{path} is no run but holds some; give one of them, such as {below.parent}")
             raise ValueError(f"{path} holds no run: {CONFIG} is missing; start one with: wordarm evolve")
         try:
             return cls(path, RunConfig.from_mapping(read_toml_file(config)))
@@ -186,7 +192,7 @@ def refuse_other(path: Path, config: RunConfig) -> None:
             raise ValueError(f"{path} was started with {'; '.join(differences)}; choose a new directory")
     elif path.is_dir():
         names = {each.name for each in path.iterdir() if not is_temporary(each.name)}
-        if strangers := sorted(names - OWN_FILES):
+        if strangers := sorted(names - OWN_FILES - BESIDE):
             raise ValueError(f"{path} holds {strangers[0]} but no run; choose a new directory")
 
 

@@ -41,6 +41,8 @@ def generator(seed: int, purpose: Purpose, generation: int = 0) -> np.random.Gen
 
     For parents, crossover and mutations, the generation is that of the children.
     """
+    if seed < 0:
+        raise ValueError(f"a seed of {seed} was asked for; give 0 or more")
     sequence = np.random.SeedSequence(seed, spawn_key=(purpose, generation))
     return np.random.Generator(np.random.PCG64(sequence))
 

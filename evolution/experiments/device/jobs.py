@@ -53,6 +53,21 @@ def device_shares(name: str, asked: int | None, threads_there: int | None = None
     return DeviceShares(names, asked or most)
 
 
+def check_device(name: str, configs: Iterable[RunConfig]) -> None:
+    """Refuse a device that has no such name, and runs that it cannot do, before anything is begun or written.
+
+    Raises:
+        ValueError: If the name is none, or a device does not know the task or network of a run.
+    """
+    if check_name(name) == PROCESSOR:
+        return
+    for config in configs:
+        if not isinstance(config.condition, Condition):
+            raise DeviceTaskError(config.condition)
+        if config.settings.inter_neurons != N_INTER:
+            raise DeviceSizeError(config.settings.inter_neurons)
+
+
 @dataclass(frozen=True)
 class DeviceShares:
     """How runs share one device, or several.
@@ -67,18 +82,6 @@ class DeviceShares:
     devices: tuple[str, ...]
     processes: int
     runs_at_once: int | None = None
-
-    def check(self, configs: Iterable[RunConfig]) -> None:
-        """Refuse runs whose task or network the devices do not know, before anything is written.
-
-        Raises:
-            ValueError: If there is one.
-        """
-        for config in configs:
-            if not isinstance(config.condition, Condition):
-                raise DeviceTaskError(config.condition)
-            if config.settings.inter_neurons != N_INTER:
-                raise DeviceSizeError(config.settings.inter_neurons)
 
     def waves(self, chains: Sequence[Sequence[Job]]) -> list[Sequence[Sequence[Job]]]:
         """The stages of as many runs as are done at once, and then of others."""

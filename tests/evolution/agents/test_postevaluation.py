@@ -1,12 +1,13 @@
 """Post-evaluation, transition tests and analysis of a short experiment."""
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from arm2d import Condition
+from arm2d import NON_EXPERIENCED, Condition
 from evolution.agents import solving
 from evolution.agents.parts import late_spans
 from evolution.agents.postevaluation import POST_EVALUATION, post_evaluate, successes_by_area
@@ -20,7 +21,7 @@ from evolution.agents.transitions import (
 from evolution.cli import main, parse
 from evolution.experiments.experiment import open_experiment
 from evolution.results.analysis import analyse
-from evolution.results.notable import notable_agents, ship
+from evolution.results.notable import described, notable_agents, ship
 from evolution.runs.folder import RunFolder
 from evolution.runs.run import evolve
 from evolution.runs.sources import find_agent
@@ -215,6 +216,15 @@ def test_shipped_agents_are_found_again_with_their_world_and_scores(experiment, 
         assert source.readings == agent.run.config.readings
         rank = find_agent(str(agent.run.path), generation=agent.generation, rank=agent.rank)
         np.testing.assert_array_equal(source.genotype, rank.genotype)
+
+
+def test_what_a_shipped_agent_can_do_is_told_whatever_its_name(experiment):
+    results = analyse(open_experiment(experiment))
+    agent = notable_agents(results)["best-generaliser"]
+    made = np.where([word in NON_EXPERIENCED for word in agent.run.config.task.instructions], 61, 60)
+    made[2] = 80
+    told = described(replace(agent, successes=made.astype(np.int16)))
+    assert told == "carries out 1 of 7 instructions it met and 2 of 2 it never met"
 
 
 @pytest.mark.slow

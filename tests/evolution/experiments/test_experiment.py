@@ -126,6 +126,24 @@ def test_an_experiment_can_grow_and_status_knows_runs_that_were_not_started(done
     assert not (folder / "default" / "with-indicate" / "seed-0003").exists()
 
 
+def test_a_dry_run_names_tasks_and_refuses_a_device_that_could_not_do_them(tmp_path, capsys):
+    file = tmp_path / "tasks.toml"
+    file.write_text(
+        'conditions = ["with-indicate", "with-both"]\nseeds = "1"\n[task]\nplaces = ["own", "dealt"]\n'
+        "[settings]\ninter_neurons = [3, 5]\n"
+    )
+    command = ["experiment", str(file), f"--output={tmp_path / 'out'}", "--dry-run"]
+    assert main(command) == 0
+    listed = capsys.readouterr().out.splitlines()
+    assert listed[-1] == (
+        "conditions: with-indicate, with-both, with-indicate+places-dealt, with-both+places-dealt"
+    )
+    for device, sentence in (("tpu", "unknown device 'tpu'"), ("cuda", "not with-both; leave --device away")):
+        assert main([*command, f"--device={device}"]) == 2
+        assert sentence in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
 @pytest.mark.slow
 def test_killed_workers_and_servers_cost_nothing_but_time(alone, file, tmp_path):
     """First the process that forks, then two workers, then the command itself; then it may end in peace."""
@@ -171,10 +189,12 @@ def test_each_variant_is_an_experiment_of_its_own(done, capsys):
     folder, _ = done
     assert main(["status", str(folder / "sector-half-width-5")]) == 0
     assert capsys.readouterr().out.startswith("2 of 2 runs done, 0 at work\n")
-    assert main(["analyse", str(folder)]) == 2
-    assert f"holds 2 variants, which are looked at one by one; give the folder of one, such as {folder}" in (
-        capsys.readouterr().err
-    )
+    for command in ("analyse", "behaviour"):
+        assert main([command, str(folder)]) == 2
+        assert (
+            f"holds 2 variants, which are looked at one by one; give the folder of one, such as {folder}"
+            in (capsys.readouterr().err)
+        )
 
 
 @pytest.mark.slow

@@ -122,6 +122,15 @@ def test_a_folder_with_other_things_is_refused_and_left_alone(tmp_path):
     assert [each.name for each in tmp_path.iterdir()] == ["letter.txt"]
 
 
+def test_a_run_begun_anew_does_not_mind_what_commands_have_put_beside_its_files(tmp_path):
+    """As the message about a damaged config.toml advises."""
+    assert evolve(tmp_path / "run", SMALL, stopping_at(10)) == 11
+    (tmp_path / "run" / "config.toml").unlink()
+    (tmp_path / "run" / "videos").mkdir()
+    (tmp_path / "run" / "report.html").write_text("a report")
+    assert evolve(tmp_path / "run", SMALL, stopping_at(20)) == 21
+
+
 def test_meta_tells_each_start_and_end(tmp_path):
     evolve(tmp_path / "run", SMALL, stopping_at(10))
     evolve(tmp_path / "run", SMALL, stopping_at(20))

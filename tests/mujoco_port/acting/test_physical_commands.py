@@ -1,9 +1,10 @@
 """The commands that let the robot act: what they say, write and refuse."""
 
+import numpy as np
 import pytest
 
 from evolution.cli import main
-from evolution.commands.robot import candidate
+from evolution.commands.robot import candidate, candidates
 from mujoco_port.acting.agreement import fingerprint, jobs
 from mujoco_port.acting.lab import instruction_of
 
@@ -31,6 +32,20 @@ def test_agree_only_counts_what_a_complete_file_holds(tmp_path, capsys):
     assert path.read_bytes() == before
 
 
+def test_agents_that_would_be_called_alike_are_told_apart_and_one_named_twice_is_refused(tmp_path):
+    """Their trials would be counted in one row, those of one agent twice."""
+    paths = [tmp_path / each / "mine.npz" for each in "ab"]
+    for number, path in enumerate(paths):
+        path.parent.mkdir()
+        np.savez(path, genotype=np.random.default_rng(number).random(84))
+    names = [str(path) for path in paths]
+    assert [each.name for each in candidates(names)] == names
+    assert [each.name for each in candidates([names[0], "best-generaliser"])] == ["mine", "best-generaliser"]
+    other = f"{tmp_path}/b/../a/mine.npz"
+    with pytest.raises(ValueError, match=r"a/mine.npz and .*/b/../a/mine.npz are the same agent; name each"):
+        candidates([names[0], "best-generaliser", other])
+
+
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
@@ -45,6 +60,10 @@ def test_agree_only_counts_what_a_complete_file_holds(tmp_path, capsys):
         ),
         (["port", "best-generaliser", "all", "--physics", "--robot", "icub-erd"], "links that cannot act"),
         (["agree", "best-generaliser", "--starts", "0"], "--starts 0 makes no trials; give at least 1"),
+        (["agree", "best-generaliser", "--seed", "-1"], "--seed -1 makes no trials; give at least 0"),
+        (["agree", "best-generaliser", "--loops"], "give one or more, each of them once"),
+        (["agree", "best-generaliser", "--loops", "open", "open"], "--loops open open: give one or more, ea"),
+        (["agree", "with-ignore", "with-ignore"], "with-ignore and with-ignore are the same agent; name ea"),
         (["agree", "nobody"], "nobody"),
         (["agree", "best-generaliser", "--robot", "nao"], "unknown robot 'nao'; there are: icub, icub-erd"),
     ],
