@@ -28,7 +28,7 @@ from arm2d import NON_EXPERIENCED, ActionWord, Instruction, ObjectWord  # noqa: 
 from arm2d.constants import DT  # noqa: E402
 from arm2d.drawing import FLOOR, INK, OBJECT_COLOURS  # noqa: E402
 from evolution.agents.recording import record_instruction  # noqa: E402
-from evolution.figures.run import SUCCESS_MAP  # noqa: E402
+from evolution.figures.page import SUCCESS_MAP, ink_on  # noqa: E402
 from evolution.runs.sources import Agent, find_agent  # noqa: E402
 from evolution.search.evaluation import evaluate  # noqa: E402
 from models.robots import get_robot  # noqa: E402
@@ -38,6 +38,8 @@ from mujoco_port.film.take import Take, kinematic_take  # noqa: E402
 from mujoco_port.film.video import moment_of, robot_pictures  # noqa: E402
 
 AGENT, INSTRUCTION, AREA, SEED = "best-generaliser", "touch green", "left", 16
+# Of which the agent is the best, by the rule of `evolution.results.notable`.
+RUNS: Final = 100
 ROBOT: Final = get_robot("icub")
 # Sizes [px] at a scale of 1; words and marks are drawn twice as large and halved, so that edges are smooth.
 WIDTH, VIEW, STRIP = 800, 450, 132
@@ -159,7 +161,7 @@ class Page:
             framed = asked in NON_EXPERIENCED
             outline, line = (INK, round(self._px(2.6)[0])) if framed else (None, 0)
             pen.rectangle(self._px(x, y, x + width, y + height), fill=shade, outline=outline, width=line)
-            ink = FLOOR if share > 0.6 else INK
+            ink = INK if ink_on(share) == INK else FLOOR
             weight = "bold" if framed else "normal"
             self._write(pen, x + width / 2, y + height / 2, f"{100 * share:.0f} %", 13, ink, weight=weight)
             if row == 0:
@@ -174,10 +176,11 @@ class Page:
     def _write_legend(self, pen: ImageDraw.ImageDraw, trials: int) -> None:
         """What the heat map shows."""
         legend = (
-            (34, "25 neurons obey two words", "bold"),
-            (54, f"{trials} trials of each instruction", "normal"),
-            (86, "Framed: never met", "bold"),
-            (106, "during evolution", "normal"),
+            (28, "25 neurons obey two words", "bold"),
+            (48, f"the best network of {RUNS} runs,", "normal"),
+            (65, f"{trials} trials of each instruction", "normal"),
+            (92, "Framed: never met", "bold"),
+            (110, "during evolution", "normal"),
         )
         for y, words, weight in legend:
             self._write(pen, CORNER + 6, y, words, 13, INK, anchor="lm", weight=weight)

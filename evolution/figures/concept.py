@@ -30,7 +30,8 @@ SIZE: Final = (11.0, 4.4)  # [inches]
 QUIET: Final = "#5F6368"
 LINE: Final = "#C9C6BE"
 STEPS_BEFORE_CONTACT: Final = 6
-CAMERA_LABEL: Final = (52.0, 108.0)  # [cm]
+CAMERA_LABEL: Final = (52.0, 112.0)  # [cm]
+START_LABELS_AT: Final = 92.0  # from the shoulder, within S1's reach [cm]
 AGENT: Final = "best-generaliser"
 INSTRUCTION: Final = "touch green"
 TITLES: Final = ("An arm and three objects, from above", "A network that hears two words")
@@ -102,20 +103,18 @@ def _draw_world(axes: Axes, record: TrialRecord) -> None:
     forearm = (joint + tip) / 2
     label = {"fontsize": 10, "color": QUIET, "ha": "center", "va": "center"}
     axes.text(0, -17, "shoulder", **label)
-    axes.text(joint[0] + 25, joint[1] - 12, "elbow", **label)
+    axes.text(joint[0] - 26, joint[1] - 9, "elbow", **label)
+    for interval in record.readings.start_intervals:
+        start = np.radians(sum(interval) / 2)
+        axes.text(*(START_LABELS_AT * np.array([np.cos(start), np.sin(start)])), "start", **label)
     axes.text(forearm[0] - 56, forearm[1] + 12, "forearm, feels\nboth its sides", **label)
     axes.text(*CAMERA_LABEL, "camera with\nthree sectors", **label)
     for disc, word in zip(discs, ObjectWord, strict=True):
-        axes.text(
-            disc[0],
-            disc[1] + 15,
-            word.name.capitalize(),
-            fontsize=11,
-            ha="center",
-            va="center",
-            color=OBJECT_COLOURS[word],
-            fontweight="bold",
-        )
+        outward = disc / np.linalg.norm(disc)
+        place = disc + (14 + 12 * abs(outward[0])) * outward  # words are wider than high
+        look = {"fontsize": 11, "ha": "center", "va": "center", "fontweight": "bold"}
+        sheet = {"fc": "white", "ec": "none", "alpha": 0.85, "pad": 1.0}  # over what the camera sees
+        axes.text(*place, word.name.capitalize(), color=OBJECT_COLOURS[word], bbox=sheet, **look)
 
 
 def _draw_network(axes: Axes, instruction: Instruction) -> None:

@@ -135,12 +135,24 @@ def test_eighty_tries_are_counted_in_a_worker_and_painted(browser):
     assert browser.text(".wa-heard") == "INDICATEGreen"
 
 
+# Objects' names that stick out of the picture or lie on their disc.
+NAMES_CUT_OFF = """[...document.querySelectorAll('.wa-disc')].filter((disc) => {
+  const name = disc.querySelector('.wa-name').getBoundingClientRect();
+  const body = disc.querySelector('.wa-body').getBoundingClientRect();
+  const stage = disc.closest('svg').getBoundingClientRect();
+  const beside = name.right <= body.left || name.left >= body.right;
+  const apart = beside || name.bottom <= body.top || name.top >= body.bottom;
+  return !apart || name.left < stage.left || name.right > stage.right || name.top < stage.top;
+}).map((disc) => disc.getAttribute('aria-label'))"""
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width", [360, 1280])
 def test_page_can_be_read_in_every_light_and_width(browser, scheme, width):
     browser.open(PAGE, width=width, scheme=scheme)
     assert browser.evaluate("document.documentElement.scrollWidth") <= width
     assert browser.faint_texts() == []
+    assert browser.evaluate(NAMES_CUT_OFF) == []
     if width < 600:
         browser.tap(word("Green"))
     else:

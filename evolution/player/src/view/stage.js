@@ -7,7 +7,7 @@ import { ACTIONS, OBJECTS } from "../world/words.js";
 import { ALPHA_MAX, ALPHA_MIN, MIDDLE_SECTOR_HALF_WIDTH, S1_LENGTH, VIEW_HALF_WIDTH } from "../world/world.js";
 
 // What the picture shows [cm]; x, y downwards, width, height.
-const VIEW = [-178, -176, 356, 274];
+const VIEW = [-178, -184, 356, 282];
 const LIGHT_REACH = 168;
 // An object may be put down between these distances from J1 [cm] and bearings [deg].
 export const NEAREST = 106;
@@ -151,12 +151,13 @@ function makeDisc(root, name, radius, onMove) {
   };
 }
 
-/** Where an object's name stands, from its centre: outside, and within the picture; `pixel` in cm. */
+/** Where an object's name stands, from its centre: outside, or below where the picture ends; `pixel` in cm. */
 function labelPlace([x], bearing, radius, pixel) {
   const [outX, outY] = polar(bearing, 1);
   const edge = VIEW[2] / 2 - 22 * pixel;
   const across = outX * (radius + 9 + 18 * pixel);
-  return [Math.min(edge, Math.max(-edge, x + across)) - x, outY * (radius + 8 + 7 * pixel)];
+  if (Math.abs(x + across) > edge) return [Math.min(edge, Math.max(-edge, x)) - x, radius + 9 + 7 * pixel];
+  return [across, outY * (radius + 8 + 7 * pixel)];
 }
 
 /** Let a pointer drag `group` about. */
