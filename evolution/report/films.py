@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Final
 
+from arm2d import ActionWord, ObjectWord
 from arm2d.films import NoEncoderError, find_encoder
 from arm2d.records import brief
 from evolution.report.pictures import data_uri
@@ -43,8 +45,18 @@ def films_of(experiment: Path, home: Path) -> Iterator[Film]:
             continue
         parts = [part for part in path.relative_to(experiment).parts[:-1] if part != "videos"]
         below = path.resolve().is_relative_to(home.resolve())
-        name = ", ".join([*parts, path.stem.replace("-", " ")])
-        yield Film(name, link_to(path, home) if below else "", _still(path))
+        yield Film(_caption(parts, path.stem), link_to(path, home) if below else "", _still(path))
+
+
+def _caption(folders: Sequence[str], stem: str) -> str:
+    """What a film shows: first its instruction, if its name tells one as `wordarm port` does."""
+    words = stem.split("-")
+    for place, (action, object_) in enumerate(pairwise(words)):
+        if action.upper() in ActionWord.__members__ and object_.upper() in ObjectWord.__members__:
+            how = " ".join(words[place + 2 :])
+            told = f"{action.upper()} {object_.capitalize()}" + (f" ({how})" if how else "")
+            return ", ".join([told, *folders, " ".join(words[:place])])
+    return ", ".join([*folders, " ".join(words)])
 
 
 def _still(film: Path) -> str:

@@ -28,7 +28,7 @@ def experiment(tmp_path):
 
 def test_a_film_is_shown_by_its_end_and_linked_from_a_page_above_it(experiment):
     (film,) = films_of(experiment, experiment)
-    assert film.name == "with-ignore, seed-0001, champion touch red"
+    assert film.name == "TOUCH Red, with-ignore, seed-0001, champion"
     assert film.link == "./with-ignore/seed-0001/videos/champion-touch-red.mp4"
     kind, _, data = film.still.partition(",")
     assert kind == "data:image/jpeg;base64"
@@ -40,6 +40,13 @@ def test_a_film_is_shown_by_its_end_and_linked_from_a_page_above_it(experiment):
 def test_a_page_that_does_not_lie_above_a_film_shows_its_still_only(experiment, tmp_path):
     (film,) = films_of(experiment, tmp_path / "elsewhere")
     assert (film.link, film.still[:16]) == ("", "data:image/jpeg;")
+
+
+def test_what_a_films_name_tells_besides_is_told(experiment):
+    (film,) = experiment.glob("*/*/videos/champion-*.mp4")
+    film.rename(film.with_name("generation-004315-rank-1-move-blue-left-seed-3-physics.mp4"))
+    (shown,) = films_of(experiment, experiment)
+    assert shown.name == "MOVE Blue (left seed 3 physics), with-ignore, seed-0001, generation 004315 rank 1"
 
 
 @pytest.mark.parametrize("content", [b"", b"no film", b"#EXTM3U\nfile:///etc/passwd\n"])

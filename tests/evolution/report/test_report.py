@@ -328,7 +328,7 @@ def test_a_page_shows_a_still_of_each_film_and_only_that_of_one_it_cannot_reach(
     assert video["poster"].startswith("data:image/jpeg;base64,")
     assert "video" not in [tag for tag, _ in elsewhere]
     (still,) = [a for tag, a in elsewhere if tag == "img" and a["src"] == video["poster"]]
-    assert still["alt"] == "A still of the film: with-ignore, seed-0001, champion touch green"
+    assert still["alt"] == "A still of the film: TOUCH Green, with-ignore, seed-0001, champion"
 
 
 def test_without_films_the_commands_that_make_them_are_told(text, results):
