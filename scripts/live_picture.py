@@ -38,7 +38,7 @@ def main(path: Path) -> None:
         page.click("#run")
         while not page.evaluate(OVER):  # as long as it takes: the processor draws
             time.sleep(0.5)
-        time.sleep(1.0)  # what is drawn last
+        time.sleep(3.0)  # what stands still is drawn finely
         print(page.picture(path))
 
 

@@ -14,6 +14,8 @@ const SLOW_MS = 45;
 const FINENESS = [2, 1.5, 1, 0.75, 0.6, 0.45];
 const SOFTWARE_FROM = 3;
 const TRIED = 12;
+// What has not moved for so long is drawn once as finely as the screen shows it.
+const STILL_MS = 300;
 
 const part = (id) => document.getElementById(id);
 const canvas = part("stage");
@@ -35,7 +37,9 @@ let state = null;
 let rates = [];
 let stage = null;
 let look = null;
-let fineness = FINENESS.findIndex((each) => each <= (window.devicePixelRatio || 1));
+const FINEST = FINENESS.findIndex((each) => each <= (window.devicePixelRatio || 1));
+let fineness = FINEST;
+const last = { fineness: -1, at: 0 };
 let slow = [];
 let quiet = 0;
 window.wordarmLive = counted;
@@ -107,9 +111,12 @@ function veil(sentence) {
 /** One picture, if there is anything new to see. */
 function picture(now) {
   requestAnimationFrame(picture);
-  if (!stage || !seen.after || !seen.stale) return;
-  const width = Math.round(canvas.clientWidth * FINENESS[fineness]);
-  const height = Math.round(canvas.clientHeight * FINENESS[fineness]);
+  if (!stage || !seen.after) return;
+  const still = !seen.stale && last.fineness !== FINEST && resting() && now - last.at > STILL_MS;
+  if (!seen.stale && !still) return;
+  Object.assign(last, { fineness: still ? FINEST : fineness, at: now });
+  const width = Math.round(canvas.clientWidth * FINENESS[last.fineness]);
+  const height = Math.round(canvas.clientHeight * FINENESS[last.fineness]);
   if (!width || !height) return;
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   look = looking(view, width, height);
@@ -122,9 +129,14 @@ function picture(now) {
   adapt(now);
 }
 
+/** Whether time stands still: then there is time for a fine picture. */
+function resting() {
+  return state?.phase !== "running" || state.paused;
+}
+
 /** Draw less where pictures come too slowly while time goes on. */
 function adapt(now) {
-  if (state?.phase !== "running" || state.paused) return (slow = []);
+  if (resting()) return (slow = []);
   slow.push(now);
   if (slow.length <= TRIED) return;
   const each = (now - slow[0]) / TRIED;

@@ -88,6 +88,13 @@ def test_an_object_is_dragged_over_the_table(browser):
     assert after[0] < before[0]  # the robot's right is on the left
 
 
+def test_what_stands_still_is_drawn_as_finely_as_the_screen_shows_it(browser):
+    """While it moves a processor draws fewer pixels."""
+    canvas = "document.getElementById('stage')"
+    browser.click('[data-view="front"]')
+    browser.wait_for(f"{canvas}.width === {canvas}.clientWidth")
+
+
 def test_another_start_and_the_closed_loop_are_chosen(browser):
     clock = browser.evaluate("document.getElementById('seed').value")
     browser.click("#shuffle")
