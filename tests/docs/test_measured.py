@@ -158,3 +158,28 @@ def test_agents_use_the_stops_as_the_page_says():
     assert "`best-generaliser` never rests at a stop" in page
     assert "`best-specialist` carries out TOUCH Blue and INDICATE Blue only with S1 at its right stop" in page
     assert "`with-ignore` turns to its left stop for every IGNORE" in page
+
+
+def test_algorithms_are_told_as_their_table_has_them():
+    page = (DOCS / "how-to" / "algorithm.md").read_text(encoding="utf-8")
+    own = {row["algorithm"]: row for row in rows("algorithms.csv")}
+    told = {
+        cells[0].strip(): [cell.strip() for cell in cells[1:3]]
+        for line in page.splitlines()
+        if len(cells := line.strip("|").split("|")) == 3
+    }
+    ordered = [own["genetic"], own["cma-es"]]
+    reach = told["runs that reach 18/7, all that can be had"]
+    assert reach == [f"{row['reach 18/7']} of {row['runs']}" for row in ordered]
+    for name, column in (
+        ("95 % interval of their share", "95 % interval"),
+        ("runs that end there", "end at 18/7"),
+        ("CPU until then, median [s]", "CPU to get there (median) [s]"),
+        ("CPU of a whole run, mean [s]", "CPU of a run (mean) [s]"),
+        ("runs with a late agent that understands MOVE Blue", "understand MOVE Blue"),
+        ("runs with one that understands TOUCH Green", "understand TOUCH Green"),
+        ("runs with one that understands both", "understand both"),
+    ):
+        assert told[name] == [row[column] for row in ordered], name
+    scored = [f"{float(row['evaluations to get there (median)']):,.0f}" for row in ordered]
+    assert told["genotypes scored until then, median"] == scored
