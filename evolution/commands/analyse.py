@@ -95,6 +95,8 @@ class Analyse:
             raise ValueError("no experiment is named; give its folder, such as runs/default")
         if len(self.experiments) > 1 and self.ship is not None:
             raise ValueError("--ship takes the agents of one experiment; name one")
+        if self.ship is not None and self.ship.exists() and not self.ship.is_dir():
+            raise ValueError(f"{self.ship} is a file; give a folder for the agents")
         if self.archive is not None:
             self._check_archive(self.archive)
         found = {name: open_experiment(path) for name, path in _named(self.experiments).items()}
@@ -196,6 +198,8 @@ class Report:
         from evolution.report.page import write_report
         from evolution.results.analysis import analyse
 
-        results = analyse(open_experiment(self.experiment))
-        print(write_report(results, self.output or self.experiment / "report.html"))
+        output = self.output or self.experiment / "report.html"
+        if output.suffix.lower() not in (".html", ".htm"):
+            raise ValueError(f"{output} is no name for a page; give such as report.html")
+        print(write_report(analyse(open_experiment(self.experiment)), output))
         return 0

@@ -38,7 +38,7 @@ class StudyCommand:
     Repeat the command to go on; what is done is not done again. Ctrl-C loses nothing.
     """
 
-    name: Annotated[Positional[Literal["readings", "beyond"]], arg(metavar="STUDY")]
+    study: Annotated[Positional[Literal["readings", "beyond"]], arg(metavar="STUDY")]
     """The study: readings, what the paper leaves open (docs/readings.md); or beyond, what it asks in the end:
     other tasks, larger networks, more and less held out (docs/beyond.md)."""
 
@@ -101,7 +101,7 @@ class StudyCommand:
         from evolution.runs.lock import locked
         from evolution.runs.storage import make_folder
 
-        if self.name == "beyond":
+        if self.study == "beyond":
             return self._run_beyond()
         if self.part in DECLARED_PARTS:
             return self._run_declared()
@@ -126,7 +126,7 @@ class StudyCommand:
     @property
     def _folder(self) -> Path:
         """Of the study."""
-        return self.output or Path("runs") / self.name
+        return self.output or Path("runs") / self.study
 
     def _run_declared(self) -> int:
         """A declared part of the study of readings."""
