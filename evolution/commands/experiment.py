@@ -70,7 +70,7 @@ class ExperimentCommand:
         if self.dry_run:
             width = console.width if console.is_terminal else None
             print("\n".join([*plan_lines(plan, at_once, width), f"{plan.folder}: {_count(plan, spec)}"]))
-            if len(spec.conditions) > len(Condition):
+            if any(not isinstance(each, Condition) for each in spec.conditions):
                 print(f"conditions: {', '.join(str(each) for each in spec.conditions)}")
             if self.device != "cpu":
                 print(f"times are the processor's; how much faster {self.device} is stands in docs/speed.md")

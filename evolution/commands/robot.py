@@ -114,7 +114,7 @@ class Agree:
         numbers = {"starts": (self.starts, 1), "processes": (self.processes, 1), "seed": (self.seed, 0)}
         for name, (number, least) in numbers.items():
             if number is not None and number < least:
-                raise ValueError(f"--{name} {number} makes no trials; give at least {least}")
+                raise ValueError(f"--{name} {number} must be at least {least}")
         from mujoco_port.film.gl import choose_back_end, without_drawing
 
         if "camera" not in self.loops:
@@ -153,11 +153,11 @@ def candidates(sources: Sequence[str]) -> list[Candidate]:
     """Whom to try; those that would be called alike by what the user calls them.
 
     Raises:
-        ValueError: If one of them is named twice, in whatever way.
+        ValueError: If one of them is named twice, by whatever name.
     """
     found = [candidate(source) for source in sources]
     for (first, one), (second, other) in combinations(zip(sources, found, strict=True), 2):
-        alike = (one.name, one.readings) == (other.name, other.readings)
+        alike = (one.readings, one.instructions) == (other.readings, other.instructions)
         if alike and np.array_equal(one.genotype, other.genotype):
             raise ValueError(f"{first} and {second} are the same agent; name each of them once")
     names = [each.name for each in found]

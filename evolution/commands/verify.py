@@ -44,12 +44,12 @@ class Verify:
 
     def run(self) -> int:
         """Compare and print the verdict, or repair."""
-        from evolution.trust.archive import SUFFIX
+        from evolution.trust.archive import SUFFIX, is_archive
 
         if not self.run_folder.exists():
             raise ValueError(f"{self.run_folder} is not there; give the folder of a run, or an archive")
         if self.run_folder.is_file():
-            if not self.run_folder.name.endswith(SUFFIX):
+            if not is_archive(self.run_folder):
                 raise ValueError(f"{self.run_folder} is no archive of results; give such as results{SUFFIX}")
             return self._check_archive()
         if self.unpack is not None:

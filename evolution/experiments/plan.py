@@ -36,7 +36,7 @@ class Plan:
         configs: The runs, in the order in which they are started.
         post_evaluate: Whether the paper's two tests follow evolution.
         names: Names of variants; those that have none are named after what is special about them.
-        known: Runs that are done elsewhere, of which no folder is needed.
+        known: Runs whose results are kept apart from them; they are done, and their folders not looked into.
     """
 
     folder: Path
@@ -67,7 +67,7 @@ class Plan:
         return Standing(config, variant=self.variant_folder(config)).name
 
     def standing(self, config: RunConfig) -> Standing:
-        """How far a run has come; one that is done elsewhere is done."""
+        """How far a run has come; one that is known is done."""
         variant = self.variant_folder(config)
         if config in self.known:
             generations = config.settings.generations

@@ -47,7 +47,7 @@ def write_plan(plan: Plan) -> None:
 
 
 def plan_text(plan: Plan) -> str:
-    """The text of plan.toml: a table for each variant and condition, with seeds and those done elsewhere."""
+    """The text of plan.toml: a table for each variant and condition, with its seeds and those known."""
     seeds: dict[RunConfig, list[int]] = {}
     for config in plan.configs:
         seeds.setdefault(replace(config, seed=0), []).append(config.seed)

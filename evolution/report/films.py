@@ -55,7 +55,7 @@ def _caption(folders: Sequence[str], stem: str) -> str:
         if action.upper() in ActionWord.__members__ and object_.upper() in ObjectWord.__members__:
             how = " ".join(words[place + 2 :])
             told = f"{action.upper()} {object_.capitalize()}" + (f" ({how})" if how else "")
-            return ", ".join([told, *folders, " ".join(words[:place])])
+            return ", ".join(part for part in (told, *folders, " ".join(words[:place])) if part)
     return ", ".join([*folders, " ".join(words)])
 
 

@@ -42,7 +42,7 @@ ANALYSES: Final = ("postevaluation", "transitions", "evaluation", "lineage", "be
 OWN_FILES: Final = {CONFIG, META, PARTS, CHECKPOINT, CHAMPIONS, LOCK, LEASE, *ANALYSES}
 # What commands put beside them unless they are given another place.
 BESIDE: Final = {"videos", "results", "report.html"}
-# Runs in an experiment, in one with variants.
+# Runs of a condition, of an experiment, of one with variants.
 RUNS_BELOW: Final = (f"*/{CONFIG}", f"*/*/{CONFIG}", f"*/*/*/{CONFIG}")
 
 

@@ -24,6 +24,7 @@ from evolution.runs.storage import DamagedFileError, make_folder, write_atomical
 
 SUMS: Final = "SHA256SUMS"
 SUFFIX: Final = ".tar.gz"
+COMPRESSED: Final = b"\x1f\x8b"  # how gzip begins
 # Of an archive, and of all files in it [bytes].
 LARGEST: Final = 2**30
 MOST_FILES: Final = 20_000
@@ -50,6 +51,14 @@ def pack(folder: str, files: Mapping[str, bytes]) -> bytes:
             member.size, member.mode = len(data), 0o644
             tar.addfile(member, io.BytesIO(data))
     return gzip.compress(buffer.getvalue(), mtime=0)
+
+
+def is_archive(path: Path) -> bool:
+    """Whether a file is an archive by its name, or by its first bytes."""
+    if path.name.endswith(SUFFIX):
+        return True
+    with path.open("rb") as file:
+        return file.read(len(COMPRESSED)) == COMPRESSED
 
 
 def read_archive(path: Path) -> dict[str, bytes]:

@@ -80,7 +80,7 @@ class MeasuredPlan(Plan, Generic[R]):
     """A plan that measures every run as soon as it is evolved, or, with `post_evaluate`, tests it whole.
 
     Attributes:
-        known: The measured rows of runs that have one, of which no folder is needed.
+        known: The measured rows of runs that have one, wherever they were evolved.
         measurement: What is measured.
     """
 
@@ -95,8 +95,8 @@ class MeasuredPlan(Plan, Generic[R]):
     def standing(self, config: RunConfig) -> Standing:
         """How far a run has come; it is done when it is measured."""
         standing = super().standing(config)
-        if config in self.known:
-            return standing
+        if row := self.known.get(config):
+            return replace(standing, best=row.plateau)
         measured = self.post_evaluate or self.measurement.done(self.path(config))
         return replace(standing, done=standing.done and measured)
 

@@ -138,6 +138,9 @@ def test_a_dry_run_names_tasks_and_refuses_a_device_that_could_not_do_them(tmp_p
     assert listed[-1] == (
         "conditions: with-indicate, with-both, with-indicate+places-dealt, with-both+places-dealt"
     )
+    file.write_text('conditions = "with-both"\nseeds = "1"\n')
+    assert main(command) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == "conditions: with-both"
     for device, sentence in (("tpu", "unknown device 'tpu'"), ("cuda", "not with-both; leave --device away")):
         assert main([*command, f"--device={device}"]) == 2
         assert sentence in capsys.readouterr().err

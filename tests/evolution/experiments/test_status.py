@@ -11,10 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
 
+from arm2d import Condition
 from evolution.cli import main
 from evolution.experiments.live_table import run_table
 from evolution.experiments.plan import Plan
-from evolution.experiments.plan_file import write_plan
+from evolution.experiments.plan_file import read_plan, write_plan
 from evolution.experiments.standing import Pace, Standing, standing_of
 from evolution.experiments.variants import LEAST_WIDTH, Variant, told_apart
 from evolution.runs.lock import locked
@@ -181,3 +182,12 @@ def test_a_run_that_may_not_be_read_costs_one_line(locked_up, capsys):
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "1 of 1 runs done, 0 at work"
     assert lines[-1] == f"{locked_up} cannot be read: Permission denied"
+
+
+def test_a_plan_remembers_which_runs_are_known_and_they_are_done(tmp_path):
+    configs = tuple(RunConfig(condition, seed) for condition in Condition for seed in (1, 2))
+    known = {configs[1], configs[2]}
+    write_plan(Plan(tmp_path, configs, post_evaluate=False, known=known))
+    plan = read_plan(tmp_path)
+    assert set(plan.known) == known
+    assert [standing.done for standing in plan.standings()] == [config in known for config in configs]

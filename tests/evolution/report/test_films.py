@@ -47,6 +47,10 @@ def test_what_a_films_name_tells_besides_is_told(experiment):
     film.rename(film.with_name("generation-004315-rank-1-move-blue-left-seed-3-physics.mp4"))
     (shown,) = films_of(experiment, experiment)
     assert shown.name == "MOVE Blue (left seed 3 physics), with-ignore, seed-0001, generation 004315 rank 1"
+    (own,) = experiment.glob("*/*/videos/generation-*.mp4")
+    own.rename(own.with_name("touch-green.mp4"))
+    (shown,) = films_of(experiment, experiment)
+    assert shown.name == "TOUCH Green, with-ignore, seed-0001"
 
 
 @pytest.mark.parametrize("content", [b"", b"no film", b"#EXTM3U\nfile:///etc/passwd\n"])

@@ -11,7 +11,7 @@ import evolution
 from arm2d import Readings
 from arm2d.device.errors import DeviceSizeError
 from evolution.cli import main
-from evolution.experiments.device.jobs import DeviceShares
+from evolution.experiments.device.jobs import check_device
 from evolution.experiments.grid import experiment_from_mapping
 from evolution.experiments.plan_file import read_plan, write_plan
 from evolution.player.agents import agent_for_page
@@ -138,7 +138,7 @@ def test_page_and_device_refuse_it_in_one_sentence(finished):
     with pytest.raises(
         DeviceSizeError, match=r"networks of three inter-neurons, not of 5; leave --device away"
     ):
-        DeviceShares(("cpu",), 1).check([SMALL, FIVE])
+        check_device("cuda", [SMALL, FIVE])
 
 
 def test_an_experiment_makes_a_grid_of_sizes(tmp_path):

@@ -156,6 +156,12 @@ def test_verify_says_that_an_archive_is_whole_and_unpacks_it(packed, tmp_path, c
     ]
 
 
+def test_an_archive_of_another_name_is_known_by_its_first_bytes(packed, capsys):
+    other = packed.rename(packed.with_name("results.tgz"))
+    assert main(["verify", str(other)]) == 0
+    assert "results.tgz is whole: " in capsys.readouterr().out
+
+
 def test_verify_of_a_damaged_archive_ends_with_1_and_unpacks_nothing(packed, tmp_path, capsys):
     packed.write_bytes(packed.read_bytes()[:-30])
     assert main(["verify", str(packed), f"--unpack={tmp_path / 'out'}"]) == 1
