@@ -106,15 +106,15 @@ def _draw_world(axes: Axes, record: TrialRecord) -> None:
     axes.text(joint[0] - 26, joint[1] - 9, "elbow", **label)
     for interval in record.readings.start_intervals:
         start = np.radians(sum(interval) / 2)
-        axes.text(*(START_LABELS_AT * np.array([np.cos(start), np.sin(start)])), "start", **label)
+        axes.text(START_LABELS_AT * np.cos(start), START_LABELS_AT * np.sin(start), "start", **label)
     axes.text(forearm[0] - 56, forearm[1] + 12, "forearm, feels\nboth its sides", **label)
     axes.text(*CAMERA_LABEL, "camera with\nthree sectors", **label)
     for disc, word in zip(discs, ObjectWord, strict=True):
         outward = disc / np.linalg.norm(disc)
-        place = disc + (14 + 12 * abs(outward[0])) * outward  # words are wider than high
+        x, y = disc + (14 + 12 * abs(outward[0])) * outward  # words are wider than high
         look = {"fontsize": 11, "ha": "center", "va": "center", "fontweight": "bold"}
         sheet = {"fc": "white", "ec": "none", "alpha": 0.85, "pad": 1.0}  # over what the camera sees
-        axes.text(*place, word.name.capitalize(), color=OBJECT_COLOURS[word], bbox=sheet, **look)
+        axes.text(x, y, word.name.capitalize(), color=OBJECT_COLOURS[word], bbox=sheet, **look)
 
 
 def _draw_network(axes: Axes, instruction: Instruction) -> None:
