@@ -73,7 +73,7 @@ class Server:
         self._viewers: set[Viewer] = set()
         self._come = asyncio.Event()
         self._moment = b""
-        self._state = ""
+        self._state, self._version = "", -1
         self._show()
 
     async def run(self, listening: socket.socket, ready: Callable[[], None]) -> None:
@@ -106,8 +106,8 @@ class Server:
     def _show(self) -> None:
         """Go on by a moment and let everybody know."""
         moment = self._session.tick()
-        state = self._session.state()
-        state["version"] = self._session.version
+        state, self._version = self._session.state(), self._session.version
+        state["version"] = self._version
         self._state = json.dumps({"state": state}, separators=(",", ":"))
         pointing = state["words"][0] == POINTING
         self._moment = packed(moment, self._posture.poses(moment, pointing))
@@ -140,8 +140,9 @@ class Server:
             while True:
                 await viewer.news.wait()
                 viewer.news.clear()
-                if viewer.told != self._session.version:
-                    viewer.told = self._session.version
+                # Not the session's own version: an order may have come since its state was written down.
+                if viewer.told != self._version:
+                    viewer.told = self._version
                     await viewer.connection.send(self._state)
                 await viewer.connection.send(self._moment)
 

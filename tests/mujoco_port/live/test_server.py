@@ -1,5 +1,6 @@
 """The page and its socket as a browser, or anybody else, meets them."""
 
+import asyncio
 import json
 import os
 import signal
@@ -14,7 +15,11 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
-from mujoco_port.live.server import MOST_VIEWERS
+from arm2d import Instruction
+from mujoco_port.live.door import door_for
+from mujoco_port.live.orders import Say
+from mujoco_port.live.posture import Posture
+from mujoco_port.live.server import MOST_VIEWERS, Server, Viewer
 from tests.mujoco_port.live.serving import Served
 
 PATIENCE = 60.0
@@ -85,6 +90,37 @@ def test_a_trial_is_carried_out_and_judged_before_a_viewers_eyes(viewer):
     assert told_last["robot"] == {"success": True, "reason": "carried out"}
     assert told_last["planar"] is True
     ask(viewer, do="speed", factor=1)
+
+
+def test_what_an_order_changes_just_before_older_news_is_told_is_told_too(session, lab):
+    """The order comes between a state's writing down and its telling."""
+    server = Server(session, Posture(lab.body.robot), {}, door_for("127.0.0.1"), {})
+    viewer = Viewer(Heard())
+
+    async def meet():
+        server._viewers.add(viewer)
+        teller = asyncio.create_task(server._tell(viewer))
+        for order in (Say.both(Instruction.parse("move red")), None):
+            server._show()
+            if order is not None:
+                session.do(order)
+            for _ in range(5):  # turns for the teller
+                await asyncio.sleep(0)
+        teller.cancel()
+
+    asyncio.run(meet())
+    states = [json.loads(each)["state"] for each in viewer.connection.heard if isinstance(each, str)]
+    assert [state["words"] for state in states] == [["TOUCH", "GREEN"], ["MOVE", "RED"]]
+
+
+class Heard:
+    """A connection that keeps what is sent."""
+
+    def __init__(self):
+        self.heard = []
+
+    async def send(self, message):
+        self.heard.append(message)
 
 
 def test_all_see_the_same_and_one_who_leaves_is_not_missed(served, viewer):
