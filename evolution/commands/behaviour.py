@@ -110,8 +110,7 @@ class BehaviourCommand(AgentCommand):
 
 def _is_experiment(path: Path) -> bool:
     """Whether a folder holds runs and is none itself."""
-    from evolution.experiments.plan_file import LAYOUTS
-    from evolution.runs.folder import CONFIG
+    from evolution.runs.folder import CONFIG, LAYOUTS
 
     if not path.is_dir() or (path / CONFIG).exists():
         return False

@@ -55,6 +55,7 @@ class ExperimentCommand:
         """Evolve; the exit code is 130 if it was stopped, 2 if a run was given up."""
         from rich.console import Console
 
+        from arm2d.device.opening import PROCESSOR
         from evolution.experiments.device.jobs import check_device, device_shares
         from evolution.experiments.jobs import tell_failures
         from evolution.experiments.plan_runner import plan_lines, processes, run_plan_shown
@@ -72,7 +73,7 @@ class ExperimentCommand:
             print("\n".join([*plan_lines(plan, at_once, width), f"{plan.folder}: {_count(plan, spec)}"]))
             if any(not isinstance(each, Condition) for each in spec.conditions):
                 print(f"conditions: {', '.join(str(each) for each in spec.conditions)}")
-            if self.device != "cpu":
+            if self.device != PROCESSOR:
                 print(f"times are the processor's; how much faster {self.device} is stands in docs/speed.md")
             return self.cluster.show_script(plan.folder) if self.cluster.slurm else 0
         with self.cluster.opened(plan.folder, console) as elsewhere:

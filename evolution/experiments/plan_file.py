@@ -20,7 +20,7 @@ from evolution.experiments.experiment import open_experiment
 from evolution.experiments.plan import Plan
 from evolution.experiments.standing import Standing, standing_of
 from evolution.experiments.variants import Variant, check_name
-from evolution.runs.folder import CONFIG, RunFolder
+from evolution.runs.folder import CONFIG, LAYOUTS, RunFolder
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.search.config import FORMAT, RunConfig
 from evolution.search.settings import Settings
@@ -29,8 +29,6 @@ from evolution.search.toml import read_toml
 FILE: Final = "plan.toml"
 # A hundred thousand seeds, one a line.
 LONGEST: Final = 4_000_000
-# Where runs are: in an experiment; in one with variants.
-LAYOUTS: Final = ("*/*", "*/*/*")
 HEADING: Final = "# The runs this folder is meant to hold; written by wordarm, for wordarm status.\n"
 
 

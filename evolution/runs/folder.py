@@ -42,8 +42,8 @@ ANALYSES: Final = ("postevaluation", "transitions", "evaluation", "lineage", "be
 OWN_FILES: Final = {CONFIG, META, PARTS, CHECKPOINT, CHAMPIONS, LOCK, LEASE, *ANALYSES}
 # What commands put beside them unless they are given another place.
 BESIDE: Final = {"videos", "results", "report.html"}
-# Runs of a condition, of an experiment, of one with variants.
-RUNS_BELOW: Final = (f"*/{CONFIG}", f"*/*/{CONFIG}", f"*/*/*/{CONFIG}")
+# Where runs are: in an experiment; in one with variants.
+LAYOUTS: Final = ("*/*", "*/*/*")
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,9 @@ class RunFolder:
             raise ValueError(f"{path} is not a folder; give the folder of a run, with its {CONFIG}")
         _refuse_links(path)
         if not config.is_file():
-            if below := next((found for layout in RUNS_BELOW for found in sorted(path.glob(layout))), None):
+            # In the folder of a condition, too.
+            runs = (found for layout in ("*", *LAYOUTS) for found in sorted(path.glob(f"{layout}/{CONFIG}")))
+            if below := next(runs, None):
                 raise ValueError(f"{path} is no run but holds some; give one of them, such as {below.parent}")
             raise ValueError(f"{path} holds no run: {CONFIG} is missing; start one with: wordarm evolve")
         try:
