@@ -2,8 +2,10 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 
+from arm2d import Condition
 from arm2d.drawing import OBJECT_COLOURS
 from evolution.figures.learning import SOONEST, learning_figure
+from evolution.results.learning import LearningCurve
 from tests.evolution.figures.gallery import curves
 
 
@@ -35,6 +37,15 @@ def test_the_last_test_of_what_was_never_met_stands_in_the_row_of_its_learner():
             assert to_hex(legend.legend_handles[told.index(str(instruction))].get_color()) == to_hex(colour)
     assert next(marks, None) is None
     assert len({float(share) for curve in found for share in curve.held_out[-1]}) > 1
+
+
+def test_tests_at_a_time_that_the_axis_cannot_tell_apart_are_one_point():
+    curve = LearningCurve.empty("evolution", Condition.WITH_INDICATE, 1)
+    for test, cpu in enumerate((0.0, 0.05, SOONEST, 1.0, 2.0)):
+        curve = curve.longer(1000 * test, cpu, [16 * test] * 9)
+    (line,) = learning_figure([curve]).axes[0].lines
+    np.testing.assert_array_equal(line.get_xdata(), [SOONEST, 1.0, 2.0])
+    np.testing.assert_allclose(line.get_ydata(), [0.4, 0.6, 0.8])
 
 
 def test_seeds_of_a_learner_share_a_colour_and_an_entry_in_the_legend():
