@@ -130,7 +130,7 @@ def _write(results: Results, output: Path, shipped: Path | None) -> None:
         print(path)
     if shipped is not None:
         agents = notable_agents(results)
-        for path in ship(results, shipped):
+        for path in ship(agents, shipped):
             print(f"{path}: {described(agents[path.stem])}")
     print(summary(results))
 

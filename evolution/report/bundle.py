@@ -9,7 +9,7 @@ from typing import Final
 
 from arm2d.files import read_file
 from evolution.report.files import summary, write_results
-from evolution.results.notable import ship
+from evolution.results.notable import notable_agents, ship
 from evolution.results.records import Results
 from evolution.runs.folder import CONFIG
 from evolution.runs.meta import revision, versions
@@ -33,7 +33,7 @@ def bundle(results: Results) -> dict[str, bytes]:
     with tempfile.TemporaryDirectory() as scratch:
         home = Path(scratch)
         write_results(results, home / "results")
-        ship(results, home / "agents")
+        ship(notable_agents(results), home / "agents")
         for path in sorted(home.rglob("*")):
             if path.is_file():
                 files[path.relative_to(home).as_posix()] = read_file(path, LARGEST_FILE)

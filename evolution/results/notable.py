@@ -11,6 +11,7 @@ They are the nearest that there is: whether one is what its name says, `describe
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -82,11 +83,11 @@ def described(agent: NotableAgent) -> str:
     return f"carries out {met} instructions it met and {never_met} it never met"
 
 
-def ship(results: Results, folder: Path) -> list[Path]:
-    """Write the notable agents of an experiment; their paths."""
+def ship(agents: Mapping[str, NotableAgent], folder: Path) -> list[Path]:
+    """Write agents to files named after them; their paths."""
     make_folder(folder)
     paths = []
-    for name, agent in notable_agents(results).items():
+    for name, agent in agents.items():
         paths.append(folder / f"{name}.npz")
         _write(agent, paths[-1])
     return paths

@@ -207,9 +207,9 @@ def test_folder_without_runs_is_refused(tmp_path):
 
 def test_shipped_agents_are_found_again_with_their_world_and_scores(experiment, tmp_path):
     results = analyse(open_experiment(experiment))
-    paths = ship(results, tmp_path)
-    assert {each.stem for each in paths} <= {"best-generaliser", "best-specialist", "with-ignore"}
     agents = notable_agents(results)
+    paths = ship(agents, tmp_path)
+    assert {each.stem for each in paths} <= {"best-generaliser", "best-specialist", "with-ignore"}
     for path in paths:
         source, agent = find_agent(str(path)), agents[path.stem]
         assert source.condition is agent.run.config.condition
