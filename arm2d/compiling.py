@@ -17,9 +17,14 @@ from pathlib import Path
 from typing import Any
 
 import numba
-from numba.core.caching import FunctionCache, IndexDataCacheFile
+from numba.core.caching import (
+    CompileResultCacheImpl,
+    FunctionCache,
+    IndexDataCacheFile,
+    _CacheLocator,
+)
 
-from arm2d.cache import CacheWarning, cache_folder, sealed, unsealed
+from arm2d.cache import SEAL, CacheWarning, cache_folder, sealed, unsealed
 
 
 def compiled(function: Callable | None = None, *, allocates: bool = True, **options: Any) -> Any:
@@ -38,24 +43,59 @@ def compiled(function: Callable | None = None, *, allocates: bool = True, **opti
     # Nobody takes one of them for a C function: what would make it one need not be compiled.
     options["no_cfunc_wrapper"] = True
     dispatcher = numba.njit(function, error_model="numpy", **options)
-    if (folder := cache_folder()) is not None:
-        _keep(dispatcher, function, folder)
+    if cache_folder() is not None:
+        _keep(dispatcher, function)
     return dispatcher
 
 
-def _keep(dispatcher: Any, function: Callable, folder: str) -> None:
-    """Let what is compiled be kept in a folder."""
-    previous = numba.config.CACHE_DIR  # type: ignore[attr-defined]
+def _keep(dispatcher: Any, function: Callable) -> None:
+    """Let what is compiled be kept in our folder; where that fails, nowhere."""
     try:
-        numba.config.CACHE_DIR = folder  # type: ignore[attr-defined] - read while a cache is made
         kept = _SealedCache(function)
-    except RuntimeError:  # no place that Numba likes
+    except RuntimeError:  # no place
         return
-    finally:
-        numba.config.CACHE_DIR = previous  # type: ignore[attr-defined]
-    # Where this folder fails, Numba goes on to others.
-    if Path(folder) in Path(kept.cache_path).parents:
+    # Numba has a variable that names other places.
+    if isinstance(kept._impl.locator, _Place):
         dispatcher._cache = kept
+
+
+class _Place(_CacheLocator):
+    """A folder for each content of a module, by its name, so that all clones and environments share it.
+
+    Numba would go by the file's path.
+    """
+
+    def __init__(self, function: Callable, file: str, folder: str) -> None:
+        self._line = function.__code__.co_firstlineno
+        self._content = SEAL(Path(file).read_bytes()).hexdigest()
+        self._path = str(Path(folder) / f"{function.__module__}-{self._content[:12]}")
+
+    def get_cache_path(self) -> str:
+        return self._path
+
+    def get_source_stamp(self) -> str:
+        return self._content
+
+    def get_disambiguator(self) -> str:
+        return str(self._line)
+
+    @classmethod
+    def from_function(cls, py_func: Callable, py_file: str) -> _Place | None:
+        folder = cache_folder()
+        if folder is None:
+            return None
+        try:
+            place = cls(py_func, py_file, folder)
+            place.ensure_cache_path()
+        except OSError:  # no room, or no file, as for what was typed in
+            return None
+        return place
+
+
+class _Kept(CompileResultCacheImpl):
+    """What Numba keeps of a function, in our place."""
+
+    _locator_classes = [_Place]  # noqa: RUF012 - Numba's way
 
 
 class _SealedFile(IndexDataCacheFile):
@@ -95,6 +135,8 @@ class _SealedFile(IndexDataCacheFile):
 
 class _SealedCache(FunctionCache):
     """What was compiled of one function."""
+
+    _impl_class = _Kept
 
     def __init__(self, function: Callable) -> None:
         super().__init__(function)

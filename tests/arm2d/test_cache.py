@@ -43,7 +43,7 @@ def fresh(tmp_path, monkeypatch):
     source = tmp_path / "doubling.py"
     source.write_text("def twice(x):\n    return 2.0 * x\n")
 
-    def load():
+    def load(source=source):
         spec = importlib.util.spec_from_file_location("doubling", source)
         module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
@@ -193,6 +193,18 @@ def test_compiled_code_is_kept_and_found(fresh):
     assert not found(load())
     assert found(load())
     assert damaged_files(folder) == []
+
+
+def test_another_clone_finds_it_and_other_content_does_not(fresh, tmp_path):
+    load, _ = fresh
+    assert not found(load())
+    source = shutil.copytree(tmp_path, tmp_path / "clone", ignore=lambda *_: ["cache"]) / "doubling.py"
+    assert found(load(source))
+    source.write_text("FACTOR = 3.0\ndef twice(x):\n    return FACTOR * x\n")
+    assert load(source)(21.0) == 63.0
+    source.write_text("FACTOR = 4.0\ndef twice(x):\n    return FACTOR * x\n")  # the same byte code
+    assert load(source)(21.0) == 84.0
+    assert found(load())
 
 
 def emptied(data):
