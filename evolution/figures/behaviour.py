@@ -17,10 +17,12 @@ from arm2d.drawing import FULL, INK, OBJECT_COLOURS, SMALL, STYLE, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
 from evolution.agents.lesions import LESIONS, LesionScores
-from evolution.figures.page import FAINT, SUCCESS_MAP, beside, head, ink_on
+from evolution.figures.page import FAINT, SUCCESS_MAP, beside, draw_alike, head, ink_on
 
 FAILED: Final = "#A8A49B"
 DASHES: Final = (0, (4, 2.5))
+# Of lines from the right and from the left start area.
+AREA_STYLES: Final = ("-", (0, (3, 1.2)))
 SHOWN_PER_AREA: Final = 10
 MARGIN: Final = 7.0  # beyond the bounds [deg], lest a line at one lie under the frame
 
@@ -78,26 +80,30 @@ def _draw_lines(
 ) -> None:
     """A line for each trial, with first sight and first touch marked."""
     trials = behaviour.of(instruction)
-    for area in (0, 1):
-        for trial in trials[behaviour.areas[trials] == area][:SHOWN_PER_AREA]:
-            good = behaviour.success[trial]
-            colour = OBJECT_COLOURS[instruction.object] if good else FAILED
-            style = "-" if area == 0 else (0, (3, 1.2))
-            axes.plot(
-                DT * np.arange(angles.shape[1]), angles[trial], color=colour, ls=style, lw=0.7, alpha=0.8
-            )
-            events = ((behaviour.first_sight[trial], "o", "white"), (behaviour.first_touch[trial], "D", INK))
-            look = {"ms": 2.2, "mec": INK, "mew": 0.4, "zorder": 4, "clip_on": False}
-            for row, marker, face in events:
-                if row != NEVER:
-                    axes.plot(DT * row, angles[trial, row], marker, mfc=face, **look)
+    shown = np.concatenate([trials[behaviour.areas[trials] == area][:SHOWN_PER_AREA] for area in (0, 1)])
+    paths = {trial: _over_time(angles[trial, : behaviour.steps[trial] + 1]) for trial in shown}
+    for good, colour in ((False, FAILED), (True, OBJECT_COLOURS[instruction.object])):
+        for area, style in enumerate(AREA_STYLES):
+            alike = shown[(behaviour.success[shown] == good) & (behaviour.areas[shown] == area)]
+            draw_alike(axes, [paths[trial] for trial in alike], color=colour, ls=style, lw=0.7, alpha=0.8)
+    look = {"ms": 2.2, "mec": INK, "mew": 0.4, "zorder": 4, "clip_on": False}
+    for rows, marker, face in ((behaviour.first_sight, "o", "white"), (behaviour.first_touch, "D", INK)):
+        met = shown[rows[shown] != NEVER]
+        axes.plot(DT * rows[met], angles[met, rows[met]], marker, mfc=face, **look)
+
+
+def _over_time(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Times [s] and values of steps, [K, 2]."""
+    return np.column_stack([DT * np.arange(len(values)), values])
 
 
 def trajectory_handles() -> list[Line2D | Patch]:
     """What lines and markers mean."""
     return [
-        Line2D([], [], color=INK, label="from the right"),
-        Line2D([], [], color=INK, ls=(0, (3, 1.2)), label="from the left"),
+        *(
+            Line2D([], [], color=INK, ls=style, label=label)
+            for style, label in zip(AREA_STYLES, ("from the right", "from the left"), strict=True)
+        ),
         Line2D([], [], color=FAILED, label="not carried out"),
         Line2D([], [], ls="", marker="o", ms=4, mfc="white", mec=INK, label="first sight of the target"),
         Line2D([], [], ls="", marker="D", ms=4, color=INK, label="first touch of the target"),

@@ -10,12 +10,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from arm2d import ObjectWord
 from arm2d.drawing import FULL, INK, OBJECT_COLOURS, SMALL, STYLE, look
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
 from evolution.figures.neurons import object_handles
-from evolution.figures.page import FAINT, beside, head
+from evolution.figures.page import FAINT, beside, draw_alike, head
 
 SHOWN_PER_AREA: Final = 3
 CUBE_COLOUR: Final = "#C9C6BE"
@@ -62,27 +61,23 @@ def principal_plane(
 
 def draw_paths(axes: Axes, behaviour: Behaviour, points: NDArray[np.float64], action: int) -> None:
     """Paths [T, 251, 2] of some trials of an action word in the objects' colours, as means of two steps."""
-    for trial in np.flatnonzero(behaviour.actions == action):
-        own = np.flatnonzero(
-            (behaviour.instructions == behaviour.instructions[trial])
-            & (behaviour.areas == behaviour.areas[trial])
-        )
-        if trial not in own[:SHOWN_PER_AREA]:
-            continue
-        colour = OBJECT_COLOURS[ObjectWord(behaviour.objects[trial])]
-        path = without_alternation(points[trial])
-        axes.plot(*path.T, color=colour, lw=0.6, alpha=0.8)
+    for object_, colour in OBJECT_COLOURS.items():
+        trials = np.flatnonzero((behaviour.actions == action) & (behaviour.objects == object_))
+        shown = np.concatenate([trials[behaviour.areas[trials] == area][:SHOWN_PER_AREA] for area in (0, 1)])
+        paths = {trial: without_alternation(points[trial]) for trial in shown}
+        draw_alike(axes, list(paths.values()), color=colour, lw=0.6, alpha=0.8)
         events = (
-            (0, "s", INK),
-            (behaviour.first_sight[trial], "o", "white"),
-            (behaviour.first_touch[trial], "D", colour),
-            (behaviour.steps[trial], "X", colour),
+            (np.zeros_like(behaviour.steps), "s", INK),
+            (behaviour.first_sight, "o", "white"),
+            (behaviour.first_touch, "D", colour),
+            (behaviour.steps, "X", colour),
         )
-        for row, marker, face in events:
-            if row != NEVER:
-                axes.plot(
-                    *path[min(row, len(path) - 1)], marker, ms=3.6, mfc=face, mec=INK, mew=0.5, zorder=4
-                )
+        for rows, marker, face in events:
+            met = [
+                path[min(rows[trial], len(path) - 1)] for trial, path in paths.items() if rows[trial] != NEVER
+            ]
+            if met:
+                axes.plot(*np.array(met).T, marker, ms=3.6, mfc=face, mec=INK, mew=0.5, zorder=4)
     axes.set_aspect("equal", adjustable="box")
 
 

@@ -59,14 +59,19 @@ def marks(axes):
     """Place, shape and face of every mark."""
     drawn = [line for line in axes.lines if line.get_linestyle() == "None"]
     return {
-        (
-            float(line.get_xdata()[0]),
-            float(line.get_ydata()[0]),
-            line.get_marker(),
-            to_hex(line.get_markerfacecolor()),
-        )
+        (*place, line.get_marker(), to_hex(line.get_markerfacecolor()))
         for line in drawn
+        for place in line.get_xydata().tolist()
     }
+
+
+def paths(axes):
+    """What is drawn between gaps, with the line that it is a part of."""
+    lines = [line for line in axes.lines if line.get_linestyle() != "None"]
+    for line in lines:
+        data = line.get_xydata()
+        for path in np.split(data, np.flatnonzero(np.isnan(data[:, 0]))):
+            yield path[np.isfinite(path[:, 0])], line
 
 
 @pytest.mark.parametrize(
@@ -78,16 +83,18 @@ def test_every_trial_is_a_line_whose_look_the_legend_explains(draw, name, behavi
     for instruction in INDICATE.instructions:
         axes = Figure().add_subplot()
         draw(axes, behaviour, instruction)
-        lines = [line for line in axes.lines if line.get_linestyle() != "None"]
         angles, trials = getattr(behaviour, name), behaviour.of(instruction)
-        assert len(lines) == len(trials)
-        for line, trial in zip(lines, trials, strict=True):
-            np.testing.assert_array_equal(line.get_ydata(), angles[trial])
-            np.testing.assert_allclose(line.get_xdata(), DT * np.arange(251))
+        drawn = {path[0, 1]: (path, line) for path, line in paths(axes)}
+        assert drawn.keys() == set(angles[trials, 0])
+        for trial in trials:
+            path, line = drawn[angles[trial, 0]]
+            n = behaviour.steps[trial] + 1
+            np.testing.assert_array_equal(path[:, 1], angles[trial, :n])
+            np.testing.assert_allclose(path[:, 0], DT * np.arange(n))
             own = OBJECT_COLOURS[instruction.object].lower()
             assert to_hex(line.get_color()) == (own if behaviour.success[trial] else failed)
             area = ("from the right", "from the left")[behaviour.areas[trial]]
-            assert line.get_linestyle() == handles[area].get_linestyle()
+            assert line._unscaled_dash_pattern == handles[area]._unscaled_dash_pattern
         expected = set()
         for label, first in (
             ("first sight of the target", behaviour.first_sight),
@@ -214,12 +221,13 @@ def test_paths_of_an_action_word_have_the_colours_of_its_objects_and_marks_at_ev
         axes = Figure().add_subplot()
         draw_paths(axes, behaviour, points, action)
         trials = np.flatnonzero(behaviour.actions == action)
-        paths = [line for line in axes.lines if line.get_linestyle() != "None"]
-        assert len(paths) == len(trials) == 12
+        drawn = {path[0, 0]: (path, line) for path, line in paths(axes)}
+        assert len(drawn) == len(trials) == 12
         expected = set()
-        for line, trial in zip(paths, trials, strict=True):
+        for trial in trials:
             means = [(points[trial, k] + points[trial, k + 1]) / 2 for k in range(behaviour.steps[trial])]
-            np.testing.assert_array_equal(line.get_xydata(), means)
+            path, line = drawn[means[0][0]]
+            np.testing.assert_array_equal(path, means)
             colour = OBJECT_COLOURS[ObjectWord(behaviour.objects[trial])].lower()
             assert to_hex(line.get_color()) == colour
             events = {
