@@ -94,7 +94,7 @@ def _draw_lines(
 
 def _over_time(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Times [s] and values of steps, [K, 2]."""
-    return np.column_stack([DT * np.arange(len(values)), values])
+    return np.stack([DT * np.arange(len(values), dtype=np.float64), values], axis=1)
 
 
 def trajectory_handles() -> list[Line2D | Patch]:
