@@ -94,4 +94,12 @@ say "installing Python packages into $venv"
 "$venv/bin/python" -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
 
 # Now rather than after the first evolution: can the robot be drawn?
-"$venv/bin/python" -m mujoco_port.doctor.drawing || say "without it there are no films; all else works"
+picture=
+if "$venv/bin/python" -m mujoco_port.doctor.drawing; then
+    picture=--picture
+else
+    say "without it there are no films; all else works"
+fi
+# Once, for all clones of these sources; otherwise the first command would.
+say "compiling"
+"$venv/bin/python" -m scripts.warm_up $picture || say "that failed; wordarm doctor says more"

@@ -33,8 +33,8 @@ def pytest_xdist_auto_num_workers() -> int:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_setupnodes(config: pytest.Config) -> None:
-    """Compile for all workers at once; whoever is sooner compiles for itself."""
-    command = [sys.executable, "-m", "tests.arm2d.warm_up"]
+    """Compile what was changed since set-up for all workers; whoever is sooner compiles for itself."""
+    command = [sys.executable, "-m", "scripts.warm_up"]
     compiling = subprocess.Popen(
         command, cwd=config.rootpath, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )

@@ -1,6 +1,7 @@
 """The study as a command: runs evolved and measured, a stop and its continuation, what is refused."""
 
 import csv
+import shutil
 import signal
 import subprocess
 import sys
@@ -106,12 +107,18 @@ def test_tables_and_picture_are_made_again_from_rows_alone(studied, tmp_path, ca
 
 @pytest.mark.slow
 def test_stopped_it_goes_on_with_the_same_command_to_the_same_bits(studied, begun, tmp_path, capsys):
-    folder = tmp_path / "beyond"
+    folder = shutil.copytree(studied[0], tmp_path / "beyond")
+    # One run is begun anew.
+    study = BeyondStudy(folder, GENERATIONS)
+    run = study.rows(study.part).plan(folder).path(next(each for each in study.part.configs if is_left(each)))
+    shutil.rmtree(run)
+    shutil.rmtree(folder / "results")
+    (folder / "rows.csv").unlink()
     process = subprocess.Popen(
         [sys.executable, "-m", "evolution", *command(folder, begun)],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
-    wait_for(lambda: [*folder.glob("**/measures/late.npz")])
+    wait_for((run / "measures" / "late.npz").exists)
     process.send_signal(signal.SIGINT)
     output, errors = process.communicate(timeout=60)
     assert process.returncode == 130, errors
