@@ -66,15 +66,14 @@ def run_trials(
 
     def run(part: slice) -> None:
         """Let some genotypes meet all trials."""
-        own = exchange.Outcomes._make(each[part] for each in outcomes)
-        run_population(networks[part], arrays, world, tables, own, NO_RECORDING, inter)
+        rows = exchange.Outcomes._make(each[part] for each in outcomes)
+        run_population(networks[part], arrays, world, tables, rows, 0, NO_RECORDING, inter)
 
     def run_own(part: slice) -> None:
-        """Let some genotypes meet their own trials, one after the other."""
-        for p in range(part.start, part.stop):
-            trials_of_p = arrays._make(each[n_trials * p : n_trials * (p + 1)] for each in arrays)
-            own = exchange.Outcomes._make(each[p : p + 1] for each in outcomes)
-            run_population(networks[p : p + 1], trials_of_p, world, tables, own, NO_RECORDING, inter)
+        """Let some genotypes meet their own trials."""
+        own = arrays._make(each[n_trials * part.start : n_trials * part.stop] for each in arrays)
+        row = exchange.Outcomes._make(each[part].reshape(1, -1) for each in outcomes)
+        run_population(networks[part], own, world, tables, row, n_trials, NO_RECORDING, inter)
 
     parts, run = _parts(len(genes), threads), run_own if each_own else run
     if len(parts) == 1:
@@ -116,7 +115,7 @@ def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None =
     rows = np.empty((c.MAX_STEPS, exchange.RECORD_STATE + len(inter)))
     networks = decode_flat(genes, readings)
     world, tables = world_of(readings), tables_of(readings)._replace(codes=codes_of(trial))
-    run_population(networks, arrays_of(trial), world, tables, outcomes, rows, inter)
+    run_population(networks, arrays_of(trial), world, tables, outcomes, 0, rows, inter)
     scores = TrialScores(*outcomes)
     rows = rows[: scores.steps[0, 0]]
     return record_of(trial, readings, rows, _inputs_of(trial, rows), scores)

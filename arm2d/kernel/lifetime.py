@@ -40,13 +40,13 @@ def start_lane(s: Floats, n: Integers, i: int, trial: int, trials: TrialArrays, 
 
 @compiled(allocates=False)
 def finish_lane(
-    s: Floats, n: Integers, i: int, p: int, actions: Integers, world: World, outcomes: Outcomes
+    s: Floats, n: Integers, i: int, row: int, actions: Integers, world: World, outcomes: Outcomes
 ) -> None:
-    """Score the trial of lane i, done by genotype p, as it stands now."""
+    """Score the trial of lane i, as it stands now, into a row of the outcomes."""
     trial = n[at.TRIAL + i]
     f1, f2, f3, success = final_scores(s, n, i, world, actions[trial])
-    outcomes.f1[p, trial] = f1
-    outcomes.f2[p, trial] = f2
-    outcomes.f3[p, trial] = f3
-    outcomes.success[p, trial] = success
-    outcomes.steps[p, trial] = n[at.STEP + i]
+    outcomes.f1[row, trial] = f1
+    outcomes.f2[row, trial] = f2
+    outcomes.f3[row, trial] = f3
+    outcomes.success[row, trial] = success
+    outcomes.steps[row, trial] = n[at.STEP + i]

@@ -51,17 +51,20 @@ def run_population(
     world: World,
     tables: WorldTables,
     outcomes: Outcomes,
+    n_own: int,
     recording: Floats,
     inter: Inter,
 ) -> None:
-    """Run all trials with every network, one network after the other.
+    """Run all trials, or its own, with every network, one network after the other.
 
     Args:
         networks: [P, G] parameters in the order of the genes.
         trials: `TrialArrays` of T trials.
         world: `World` and
         tables: `WorldTables` of the readings.
-        outcomes: `Outcomes` to be filled in.
+        outcomes: `Outcomes` to be filled in: [P, T], or one row [1, T] where each network has its own trials.
+        n_own: How many trials of its own each network has, those of one after those of another; 0 if all
+            networks meet all trials.
         recording: [K, RECORD_STATE + N] for a single trial of a single network, else nothing.
         inter: As many zeros as each network has inter-neurons, N.
     """
@@ -80,12 +83,17 @@ def run_population(
     )
     for p in range(len(networks)):
         tabulate_drives(networks[p], tables.betas, tables.codes, drives, inter)
-        _run_network(p, networks[p], trials, world, tables, lanes, drives, outcomes, recording)
+        row, first, last = p, int(0), len(trials.action)  # noqa: RUF046, UP018 - see below
+        if n_own > 0:
+            row, first, last = 0, n_own * p, n_own * (p + 1)
+        _run_network(row, first, last, networks[p], trials, world, tables, lanes, drives, outcomes, recording)
 
 
 @compiled(allocates=False)
 def _run_network(
-    p: int,
+    row: int,
+    first: int,
+    last: int,
     network: Floats,
     trials: TrialArrays,
     world: World,
@@ -95,14 +103,15 @@ def _run_network(
     outcomes: Outcomes,
     recording: Floats,
 ) -> None:
-    """Run all trials with one network, N_LANES at a time."""
+    """Run the trials from `first` to before `last` with one network, N_LANES at a time; fill in a row."""
     s, n, d, inter = lanes
     touch, camera, bend, words = drives
-    n_trials, objects = len(trials.action), trials.object
-    changing, in_sequence = _any_other(trials.delay, NO_CHANGE), _any_other(trials.word_steps, 0)
+    objects = trials.object
+    changing = _any_other(trials.delay[first:last], NO_CHANGE)
+    in_sequence = _any_other(trials.word_steps[first:last], 0)
     # To Numba a bare 0 is of a type of its own, for which it would compile all that is called here once more.
-    active, waiting = int(0), int(0)  # noqa: RUF046, UP018
-    while active < N_LANES and waiting < n_trials:
+    active, waiting = int(0), first  # noqa: RUF046, UP018
+    while active < N_LANES and waiting < last:
         _start(lanes, active, waiting, network, trials, world, words)
         active, waiting = active + 1, waiting + 1
     steps = 0
@@ -133,8 +142,8 @@ def _run_network(
             if n[at.DONE + i] == 0:
                 i += 1
                 continue
-            finish_lane(s, n, i, p, trials.action, world, outcomes)
-            if waiting < n_trials:
+            finish_lane(s, n, i, row, trials.action, world, outcomes)
+            if waiting < last:
                 _start(lanes, i, waiting, network, trials, world, words)
                 waiting += 1
             else:
