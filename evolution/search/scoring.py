@@ -28,7 +28,8 @@ def draw_evolution_trials(
         ValueError: If an instruction is not among those the condition lets agents experience.
     """
     experienced = condition.experienced
-    for instruction in dict.fromkeys(instructions):
+    # Few objects, again and again for each genotype: told apart as objects, they need not be compared.
+    for instruction in {id(each): each for each in instructions}.values():
         if instruction not in experienced:
             raise ValueError(
                 f"non-experienced instruction {instruction.action.name} {instruction.object.name} "
