@@ -12,7 +12,7 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import Instruction
+from arm2d import Condition, Instruction
 from arm2d.tasks.task import AnyTask, task_of
 from evolution.results.statistics import (
     bootstrap_interval,
@@ -115,6 +115,16 @@ class Group:
         """What its runs come to, over all that is held out."""
         return outcome.estimate(self.runs, self.held_out)
 
+    def of_obeying(self, words: Words) -> float:
+        """Of agents that obey, the share that understands, averaged over runs with such agents; else NaN."""
+        shares = [run.share_of_obeying(words) for run in self.runs if run.obeying]
+        return float(np.mean(shares)) if shares else np.nan
+
+    @property
+    def obeying_runs(self) -> int:
+        """How many of its runs have agents that obey all experienced instructions."""
+        return sum(run.obeying > 0 for run in self.runs)
+
 
 def groups_of(runs: Iterable[CellRun]) -> list[Group]:
     """Runs put together, in the order of the cells; a cell and condition without a run is left out."""
@@ -159,6 +169,11 @@ class Comparison:
         return "more" if self.difference.value > 0 else "less"
 
     @property
+    def words(self) -> tuple[Instruction, ...]:
+        """What cell and paper's task both hold out."""
+        return shared_words(self.group, self.paper)
+
+    @property
     def sentence(self) -> str:
         """The verdict in words."""
         own = [100 * each for each in (self.difference.value, self.difference.low, self.difference.high)]
@@ -188,8 +203,9 @@ def comparisons(groups: Sequence[Group]) -> list[Comparison]:
 
 def verdict_of(group: Group, outcome: Outcome, found: Iterable[Comparison]) -> Verdict:
     """What the comparisons say of a group: of one that is compared with both conditions, if they agree."""
-    own: set[Verdict] = {each.verdict for each in found if each.group == group and each.outcome == outcome}
-    return own.pop() if len(own) == 1 else "undecided"
+    own: list[Verdict] = [each.verdict for each in found if each.group == group and each.outcome == outcome]
+    bases = len(Condition) if task_of(group.task).third == "both" else 1
+    return own[0] if len(own) == bases and len(set(own)) == 1 else "undecided"
 
 
 def shared_words(group: Group, paper: Group) -> tuple[Instruction, ...]:
@@ -225,7 +241,24 @@ def sentences(groups: Sequence[Group], found: Sequence[Comparison]) -> list[str]
     for cell in dict.fromkeys(group.cell for group in groups if group.cell != PAPER):
         shown = {s: effect for s, effect in effects_of(cell, groups, found).items() if effect != "undecided"}
         told += [f"{cell.name} {effect} {subject}" for subject, effect in shown.items()]
+        if [*shown.values()] in (["helps"] * len(SUBJECTS), ["hinders"] * len(SUBJECTS)):
+            told.append(_with_success(cell, shown["evolution"], found))
     return told
+
+
+def _with_success(cell: Cell, effect: str, found: Iterable[Comparison]) -> str:
+    """What is said of a cell where understanding goes with the success of evolution."""
+    more = "more" if effect == "helps" else "less"
+    own = [each for each in found if each.group.cell == cell and each.outcome == UNDERSTOOD]
+    shares = "; ".join(
+        f"{each.paper.task} {100 * each.group.of_obeying(each.words):.1f} % "
+        f"({100 * each.paper.of_obeying(each.words):.1f} % in the paper's task)"
+        for each in own
+    )
+    return (
+        f"{cell.name}: {more} is understood where evolution succeeds {more}; of the agents that obey all "
+        f"experienced instructions understand: {shares}"
+    )
 
 
 def _is_base(paper: Group, group: Group) -> bool:

@@ -15,7 +15,15 @@ from arm2d.drawing import FULL, INK, SMALL, STYLE, look
 from arm2d.tasks.task import task_of
 from evolution.figures.page import CONDITION_COLOURS, FAINT, SERIES, headed
 from evolution.results.wording import TITLES
-from evolution.study.beyond.answers import OUTCOMES, UNDERSTOOD, Comparison, Group, Outcome, verdict_of
+from evolution.study.beyond.answers import (
+    OUTCOMES,
+    TESTED,
+    UNDERSTOOD,
+    Comparison,
+    Group,
+    Outcome,
+    verdict_of,
+)
 from evolution.study.beyond.cells import CELLS, PAPER
 
 # By the third action: where in its row a group is drawn, in which colour, and what that is called.
@@ -29,6 +37,8 @@ PERCENT: Final = (-4.0, 104.0)
 # Half of the height that the dots of runs are spread over [rows].
 SPREAD: Final = 0.11
 DOTTED: Final = (0, (1, 1))
+NOT_COMPARED: Final = "s"
+PAPER_WIDTH: Final = 0.6
 
 
 def cells_figure(groups: Sequence[Group], found: Sequence[Comparison]) -> Figure:
@@ -62,21 +72,29 @@ def drawn_words(group: Group, outcome: Outcome) -> tuple[Instruction, ...]:
 
 
 def _draw_paper(axes: Axes, group: Group, outcome: Outcome, row: int, groups: Sequence[Group]) -> None:
-    """The mean of the paper's task: through all rows, and once more where it is of fewer instructions."""
+    """The mean of the paper's task: through all rows, and once more where it is of fewer instructions.
+
+    How often all that is held out is understood can be set beside it only where as much is held out.
+    """
     offset, colour, _ = LOOKS[task_of(group.task).third]
     words = drawn_words(group, outcome)
-    if group.cell == PAPER:
-        mean = outcome.values(group.runs, words).mean()
-        axes.axvline(100 * mean, color=colour, lw=0.6, zorder=1)
-    if outcome != UNDERSTOOD:
-        return
-    third = task_of(group.task).third
-    papers = [each for each in groups if each.cell == PAPER and task_of(each.task).third == third]
-    for paper in papers:
-        if len(words) < len(paper.held_out):
-            mean = outcome.values(paper.runs, words).mean()
+    for paper in _papers_of(group, groups):
+        mean = 100 * outcome.values(paper.runs, words).mean()
+        theirs = LOOKS[task_of(paper.task).third][1]
+        if outcome not in TESTED:
+            if len(group.held_out) == len(paper.held_out):
+                axes.plot([mean] * 2, [row - 0.5, row + 0.5], color=theirs, lw=PAPER_WIDTH, zorder=1)
+        elif group.cell == PAPER:
+            axes.axvline(mean, color=colour, lw=PAPER_WIDTH, zorder=1)
+        elif outcome == UNDERSTOOD and len(words) < len(paper.held_out):
             ends = [row + offset - 0.17, row + offset + 0.17]
-            axes.plot([100 * mean] * 2, ends, color=colour, lw=1.6, ls=DOTTED, zorder=1)
+            axes.plot([mean] * 2, ends, color=colour, lw=1.6, ls=DOTTED, zorder=1)
+
+
+def _papers_of(group: Group, groups: Sequence[Group]) -> list[Group]:
+    """The paper's task in the condition of a group, or in both."""
+    third = task_of(group.task).third
+    return [each for each in groups if each.cell == PAPER and third in ("both", task_of(each.task).third)]
 
 
 def _draw(axes: Axes, group: Group, outcome: Outcome, row: int, found: Sequence[Comparison]) -> None:
@@ -90,8 +108,8 @@ def _draw(axes: Axes, group: Group, outcome: Outcome, row: int, found: Sequence[
         axes.plot(values, y + spread, "o", ms=1.8, color=colour, alpha=0.4, mew=0, zorder=2)
     axes.plot([100 * own.low, 100 * own.high], [y, y], color=colour, lw=1.2, zorder=3)
     differs = verdict_of(group, outcome, found) != "undecided"
-    face = colour if differs else "white"
-    axes.plot(100 * own.value, y, "o", ms=4.0, mfc=face, mec=colour, mew=0.9, zorder=4)
+    face, marker = colour if differs else "white", "o" if outcome in TESTED else NOT_COMPARED
+    axes.plot(100 * own.value, y, marker, ms=4.0, mfc=face, mec=colour, mew=0.9, zorder=4)
 
 
 def _finish(axes: Axes, outcome: Outcome, groups: Sequence[Group]) -> None:
@@ -116,8 +134,11 @@ def _handles(groups: Sequence[Group]) -> list[Line2D]:
         ),
         Line2D([], [], color=INK, ls="", **mark, label="differs from the paper's task: p < 0.05 after Holm"),
         Line2D([], [], color=INK, ls="", mfc="white", **mark, label="not shown to differ"),
+        Line2D(
+            [], [], color=INK, ls="", mfc="white", marker=NOT_COMPARED, ms=4.0, mew=0.9, label="not compared"
+        ),
         Line2D([], [], color=INK, ls="", marker="o", ms=1.8, alpha=0.4, mew=0, label="a run"),
-        Line2D([], [], color=INK, lw=0.6, label="mean of the paper's task"),
+        Line2D([], [], color=INK, lw=PAPER_WIDTH, label="mean of the paper's task"),
         Line2D([], [], color=INK, lw=1.6, ls=DOTTED, label="the same, of the words held out here"),
     ]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from math import comb
 from pathlib import Path
 from typing import Any, Final
 
@@ -13,19 +14,21 @@ from evolution.report.columns import PlainTable
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.study.beyond.answers import (
     OUTCOMES,
+    UNDERSTOOD,
     Comparison,
     Group,
     Outcome,
     comparisons,
     groups_of,
     sentences,
+    verdict_of,
 )
 from evolution.study.beyond.cells import NAME
 from evolution.study.beyond.figure import cells_figure
 from evolution.study.beyond.rows import CellRun, write_rows
-from evolution.study.declared.regression import estimate_columns
+from evolution.study.declared.regression import SIGNIFICANT, estimate_columns
 
-NOTHING: Final = "no cell has shown more or less than the paper's task"
+NOTHING: Final = "shows more or less than the paper's task"
 
 
 def write_results(runs: Sequence[CellRun], folder: Path) -> tuple[list[Path], list[str]]:
@@ -45,7 +48,18 @@ def write_results(runs: Sequence[CellRun], folder: Path) -> tuple[list[Path], li
     write_atomically(paths[1], cell_table(groups).to_csv().encode())
     write_atomically(paths[2], comparison_table(found).to_csv().encode())
     paths += save_figure(cells_figure(groups, found), folder / NAME)
-    return paths, sentences(groups, found) or [NOTHING]
+    return paths, sentences(groups, found) or [_nothing(found)]
+
+
+def _nothing(found: Sequence[Comparison]) -> str:
+    """That nothing is shown, and whether anything could have been."""
+    if not found:
+        return "every cell needs two runs to be compared with the paper's task"
+    said = f"none of {len(found)} comparisons {NOTHING}"
+    fewest = min(
+        2 / comb(len(each.group.runs) + len(each.paper.runs), len(each.paper.runs)) for each in found
+    )
+    return said if fewest * len(found) < SIGNIFICANT else f"{said}; of so few runs, none could"
 
 
 def cell_table(groups: Iterable[Group]) -> PlainTable[Group]:
@@ -60,11 +74,8 @@ def cell_table(groups: Iterable[Group]) -> PlainTable[Group]:
             "runs at the largest fitness": lambda group: sum(run.at_limit for run in group.runs),
             "median generation of the solved": _median_generation,
             "obey all experienced": lambda group: _mean(run.obeying / run.agents for run in group.runs),
-            "understood, of these": lambda group: _mean(
-                run.share_understood(group.held_out) * run.agents / run.obeying
-                for run in group.runs
-                if run.obeying
-            ),
+            "runs with such agents": lambda group: group.obeying_runs,
+            "understood, of these": lambda group: _share(group.of_obeying(group.held_out)),
             "success, experienced": lambda group: _success(group, of_held_out=False),
             "success, held out": lambda group: _success(group, of_held_out=True),
         },
@@ -72,8 +83,8 @@ def cell_table(groups: Iterable[Group]) -> PlainTable[Group]:
     )
 
 
-def comparison_table(found: Iterable[Comparison]) -> PlainTable[Comparison]:
-    """One row per cell, condition of the paper's task and outcome."""
+def comparison_table(found: Sequence[Comparison]) -> PlainTable[Comparison]:
+    """One row per cell, condition of the paper's task and outcome; understanding over what both hold out."""
     return PlainTable(
         {
             "cell": lambda each: each.group.cell.name,
@@ -87,9 +98,17 @@ def comparison_table(found: Iterable[Comparison]) -> PlainTable[Comparison]:
             "p": lambda each: f"{each.p:.3g}",
             "after Holm": lambda each: f"{each.corrected:.3g}",
             "verdict": lambda each: each.verdict,
+            "said of the cell": lambda each: verdict_of(each.group, each.outcome, found),
+            "of those that obey": lambda each: _of_obeying(each, each.group),
+            "of those that obey in the paper's task": lambda each: _of_obeying(each, each.paper),
         },
         found,
     )
+
+
+def _of_obeying(each: Comparison, group: Group) -> str:
+    """How many of the agents that obey understand: beside understanding, of the same instructions."""
+    return _share(group.of_obeying(each.words)) if each.outcome == UNDERSTOOD else ""
 
 
 def _of_outcomes() -> dict[str, Callable[[Group], Any]]:
@@ -125,4 +144,8 @@ def _success(group: Group, *, of_held_out: bool) -> str:
 def _mean(values: Iterable[float]) -> str:
     """Over runs; nothing if no run can tell."""
     found = list(values)
-    return f"{np.mean(found):.4f}" if found else ""
+    return _share(float(np.mean(found)) if found else np.nan)
+
+
+def _share(value: float) -> str:
+    return "" if np.isnan(value) else f"{value:.4f}"

@@ -30,6 +30,7 @@ from evolution.study.declared.plan import Measurement
 from evolution.study.measures import is_measured, measure
 from evolution.study.row_files import COURSE, course_of, read_table, reading_columns, readings_of, write_table
 
+PLATEAU_DIGITS: Final = 6
 INSTRUCTIONS: Final = tuple(Instruction(action, object_) for action in ActionWord for object_ in ObjectWord)
 
 
@@ -73,8 +74,11 @@ class CellRun:
 
     @property
     def relative_plateau(self) -> float:
-        """The plateau as a share of the largest fitness of its task."""
-        return self.plateau / self.config.task.largest_fitness
+        """The plateau as a share of the largest fitness of its task; exact to the digits that rows have.
+
+        18/7 is no number of six digits: without rounding, tasks that end at their limits would differ.
+        """
+        return round(self.plateau / self.config.task.largest_fitness, PLATEAU_DIGITS)
 
     @property
     def at_limit(self) -> bool:
@@ -84,6 +88,10 @@ class CellRun:
     def share_understood(self, instructions: Iterable[Instruction]) -> float:
         """Share of late agents that understand a held-out instruction, on average over these."""
         return float(np.mean([self.understood[each] for each in instructions])) / self.agents
+
+    def share_of_obeying(self, instructions: Iterable[Instruction]) -> float:
+        """The same of the agents that obey all experienced instructions; NaN where none does."""
+        return self.share_understood(instructions) * self.agents / self.obeying if self.obeying else np.nan
 
 
 def measured_run(folder: RunFolder) -> CellRun:
@@ -98,7 +106,7 @@ def measured_run(folder: RunFolder) -> CellRun:
     understood = {word: carries_out(agents, task, word) for word in held_out}
     return CellRun(
         config=folder.config,
-        plateau=round(found.plateau, 6),
+        plateau=round(found.plateau, PLATEAU_DIGITS),
         first_solved=found.first_solved,
         solved_late=round(found.solved_late, 4),
         agents=len(agents),

@@ -163,6 +163,43 @@ def test_twelve_instructions_differ_if_they_do_from_both_conditions(level, paper
     assert verdict_of(group_of(groups, "twelve", "both"), PLATEAU, comparisons(groups)) == verdict
 
 
+def test_without_both_comparisons_nothing_is_said_of_twelve_instructions():
+    runs = [run for run in one_cell(0.9, (0.7, 0.8)) if run.config.task.third != "ignore"]
+    found = comparisons(groups := groups_of(runs))
+    assert {each.verdict for each in found if each.outcome == PLATEAU} == {"more"}
+    assert verdict_of(group_of(groups, "twelve", "both"), PLATEAU, found) == "undecided"
+
+
+def test_tasks_that_all_end_at_their_limits_do_not_differ():
+    """As they are measured and read, to six digits, which 18/7 is not."""
+    runs = [replace(run, plateau=round(run.config.task.largest_fitness, 6)) for run in made_study(SEEDS)]
+    assert {run.relative_plateau for run in runs} == {1.0}
+    ends = [each for each in comparisons(groups_of(runs)) if each.outcome == PLATEAU]
+    assert {each.p for each in ends} == {1.0}
+
+
+def test_understanding_that_goes_with_success_is_said_to_do_so(groups, found):
+    """Beside it stands what those understand that obey, over what both hold out."""
+    four = BY_NAME["without-four"]
+    alone = sentences(groups, found)
+    assert "without-four helps understanding" in alone
+    assert not any("is understood where" in line for line in alone)
+    with_success = [
+        replace(each, corrected=0.01, difference=replace(each.difference, value=0.1))
+        if each.group.cell == four and each.outcome == SOLVED
+        else each
+        for each in found
+    ]
+    (line,) = [line for line in sentences(groups, with_success) if "is understood where" in line]
+    assert line.startswith("without-four: more is understood where evolution succeeds more; ")
+    for third in ("indicate", "ignore"):
+        shares = [
+            100 * np.mean([np.mean([run.understood[w] for w in (BLUE, GREEN)]) / run.obeying for run in runs])
+            for runs in (group_of(groups, name, third).runs for name in ("without-four", "paper"))
+        ]
+        assert f"with-{third} {shares[0]:.1f} % ({shares[1]:.1f} % in the paper's task)" in line
+
+
 @pytest.mark.parametrize(
     ("level", "paper", "said"),
     [(0.9, (0.7, 0.8), ["twelve helps evolution"]), (0.6, (0.7, 0.8), ["twelve hinders evolution"]),
@@ -188,6 +225,16 @@ def test_a_change_helps_or_hinders_if_one_condition_says_so_and_none_the_contrar
     assert effects_of(cells["dealt"], groups, contrary)["evolution"] == "undecided"
 
 
+def test_runs_without_agents_that_obey_are_left_out_of_what_those_understand():
+    runs = [
+        made_up(each, obeying=n, understood=(n // 2,)) for each, n in zip(CONFIGS, (0, 100), strict=False)
+    ]
+    (group,) = groups_of([runs[0], replace(runs[1], config=replace(runs[0].config, seed=202))])
+    assert (len(group.runs), group.obeying_runs) == (2, 1)
+    assert group.of_obeying(group.held_out) == pytest.approx(0.25)
+    assert np.isnan(groups_of(runs[:1])[0].of_obeying(group.held_out))
+
+
 def test_cells_of_one_run_are_told_but_not_compared():
     groups = groups_of(made_study(range(201, 202)))
     assert comparisons(groups) == []
@@ -207,6 +254,7 @@ def test_tables_tell_every_group_and_comparison_with_its_own_numbers(groups, fou
         assert row["median generation of the solved"] == (str(int(np.median(first))) if first else "")
         among = [np.mean([*run.understood.values()]) / run.obeying for run in group.runs]
         assert float(row["understood, of these"]) == pytest.approx(np.mean(among), abs=5.1e-5)
+        assert int(row["runs with such agents"]) == 8
         for column, of_held_out in (("success, held out", True), ("success, experienced", False)):
             run = group.runs[0]  # all are made up alike in this
             own = [s for w, s in run.successes.items() if (w in run.config.task.held_out) is of_held_out]
@@ -216,6 +264,13 @@ def test_tables_tell_every_group_and_comparison_with_its_own_numbers(groups, fou
         assert (row["cell"], row["condition"], row["verdict"]) == (
             each.group.cell.name, str(each.paper.task), each.verdict,
         )  # fmt: skip
+        assert row["said of the cell"] == verdict_of(each.group, each.outcome, found)
+        told = [row[f"of those that obey{end}"] for end in ("", " in the paper's task")]
+        if each.outcome == UNDERSTOOD:
+            own = [group.of_obeying(each.words) for group in (each.group, each.paper)]
+            assert [float(number) for number in told] == pytest.approx(own, abs=5.1e-5)
+        else:
+            assert told == ["", ""]
         assert float(row["mean"]) - float(row["mean of the paper's task"]) == pytest.approx(
             float(row["difference"]), abs=1.1e-4
         )

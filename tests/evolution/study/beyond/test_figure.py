@@ -5,9 +5,17 @@ import pytest
 from matplotlib.colors import to_hex
 
 from evolution.figures.page import CONDITION_COLOURS, SERIES
-from evolution.study.beyond.answers import OUTCOMES, UNDERSTOOD, comparisons, groups_of, verdict_of
+from evolution.study.beyond.answers import (
+    ALL_UNDERSTOOD,
+    OUTCOMES,
+    TESTED,
+    UNDERSTOOD,
+    comparisons,
+    groups_of,
+    verdict_of,
+)
 from evolution.study.beyond.cells import CELLS
-from evolution.study.beyond.figure import LOOKS, cells_figure, drawn_words
+from evolution.study.beyond.figure import LOOKS, NOT_COMPARED, PAPER_WIDTH, cells_figure, drawn_words
 from tests.evolution.study.beyond.made_up import SEEDS, made_study
 
 
@@ -28,6 +36,7 @@ def lines_of(axes, group):
     flat = [line for line in own if np.allclose(np.mean(line.get_ydata()), y, atol=1e-9)]
     marks = [line for line in axes.lines if to_hex(line.get_markeredgecolor()) == colour.lower()]
     mark = [line for line in marks if line.get_markersize() == 4.0 and line.get_ydata()[0] == y]
+    flat = [line for line in flat if line.get_linewidth() != PAPER_WIDTH]
     return flat, mark
 
 
@@ -56,6 +65,7 @@ def test_means_and_intervals_stand_at_their_numbers(panels, groups, found):
             assert any(np.allclose(end, [100 * own.low, 100 * own.high]) for end in ends)
             filled = mark.get_markerfacecolor() != "white"
             assert filled == (verdict_of(group, outcome, found) != "undecided")
+            assert (mark.get_marker() == NOT_COMPARED) == (outcome not in TESTED)
 
 
 def test_some_marks_are_filled_and_the_paper_s_are_not(groups, found):
@@ -81,8 +91,25 @@ def test_every_run_is_a_dot_where_runs_are_not_counted(panels, groups):
                 assert np.ptp(line.get_ydata()) < 0.3
 
 
+def test_what_is_not_compared_has_the_paper_s_line_only_beside_as_many_held_out(panels, groups):
+    axes = panels[OUTCOMES.index(ALL_UNDERSTOOD)]
+    drawn = {
+        (round(float(np.mean(line.get_ydata())), 6), to_hex(line.get_color()), float(line.get_xdata()[0]))
+        for line in axes.lines
+        if line.get_linewidth() == PAPER_WIDTH
+    }
+    means = {third(group): 100 * group.estimate(ALL_UNDERSTOOD).value for group in groups[:2]}
+    assert list(means) == ["indicate", "ignore"]
+    assert drawn == {
+        (CELLS.index(cell), LOOKS[condition][1].lower(), mean)
+        for cell in CELLS
+        if not cell.name.startswith("without-")
+        for condition, mean in means.items()
+    }
+
+
 def test_the_paper_s_task_is_a_line_through_all_rows_in_each_condition(panels, groups):
-    for axes, outcome in zip(panels, OUTCOMES, strict=True):
+    for axes, outcome in zip(panels, TESTED, strict=False):
         upright = {
             to_hex(line.get_color()): line.get_xdata()[0]
             for line in axes.lines
