@@ -34,6 +34,7 @@ TOUCH_TOLERANCE: Final = 1e-6  # [cm], a disc nearer than rho plus this is touch
 # Scores (section VI).
 GOOD_STEPS_FOR_SUCCESS: Final = 100  # 10 s
 THRESHOLD_TOLERANCE: Final = 1e-9  # [deg], a sum this near a threshold has reached it
+STRAIGHT: Final = 0.99  # F3 above which S2 counts as stretched, where success asks for it (spec section 12)
 COLLISION_FACTOR: Final = 0.6  # P1 after touching an object that is not the target
 
 # The controller (section IV). The paper's has three inter-neurons, and 84 genes; a network may have others

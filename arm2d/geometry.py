@@ -19,7 +19,7 @@ Pose = tuple[float, float, float, float]
 
 
 def turned(alpha: float, beta: float, turns: tuple[float, float]) -> tuple[float, float]:
-    """Both angles after both turns [deg]; the joints stop at their bounds (section II)."""
+    """Both angles after both turns [deg]; the joints stop at their bounds (section III)."""
     return (
         min(c.ALPHA_MAX, max(c.ALPHA_MIN, alpha + turns[0])),
         min(c.BETA_MAX, max(c.BETA_MIN, beta + turns[1])),

@@ -1,8 +1,8 @@
 """One trial in plain Python, straight from the specification: the definition of the world.
 
-Slow and simple; the compiled kernel is tested against it. Only the controller shares more than
-words with the kernel, its `sigmoid` and the order of its sums: a recurrent network can be chaotic,
-and would blow up a difference in the last bit to another behaviour.
+Slow and simple; the compiled kernel is tested against it. Only the controller shares more than words
+with the kernel, the decoding of its genes, its `sigmoid` and the order of its sums: a recurrent network
+can be chaotic, and would blow up a difference in the last bit to another behaviour.
 """
 
 from __future__ import annotations
@@ -298,4 +298,4 @@ def score(
     at_end = 1.0 - beta / c.BETA_MAX if in_view else 0.0
     f3 = 0.0 if not stretches else stretch if r.f3_time == "best" else at_end
     strict = r.success == "f1_f2_f3" and stretches
-    return Score(f1, f2, f3, f1 == f2 == 1.0 and (f3 > 0.99 or not strict), steps)
+    return Score(f1, f2, f3, f1 == f2 == 1.0 and (f3 > c.STRAIGHT or not strict), steps)

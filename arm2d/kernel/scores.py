@@ -8,6 +8,7 @@ from arm2d.constants import (
     COLLISION_FACTOR,
     GOOD_STEPS_FOR_SUCCESS,
     MAX_STEPS,
+    STRAIGHT,
     THRESHOLD_TOLERANCE,
     VIEW_HALF_WIDTH,
 )
@@ -159,5 +160,5 @@ def final_scores(
             f3 = 1.0 - s[BETA + i] / BETA_MAX
     success = f1 == 1.0 and f2 == 1.0
     if world.strict_success and action in (TOUCH, MOVE):
-        success = success and f3 > 0.99
+        success = success and f3 > STRAIGHT
     return f1, f2, f3, success

@@ -28,6 +28,7 @@ LARGEST_EXACT: Final = 200_000
 BOOTSTRAP_SAMPLES: Final = 10_000
 # Up to so many runs, all choices of signs are counted.
 MOST_FLIPPED: Final = 16
+FLIPPED_AT_ONCE: Final = 10_000  # for the memory
 NORMAL_95: Final = 1.959964  # two-sided 95 % of a normal distribution
 
 
@@ -148,6 +149,23 @@ def sign_flip_test(differences: NDArray[np.float64]) -> float:
     signs = 1 - 2 * ((np.arange(2**n)[:, np.newaxis] >> np.arange(n)) & 1)  # [2^n, n]
     off = np.abs(signs @ differences)
     return float((off >= abs(differences.sum()) - 1e-12).mean())
+
+
+def drawn_sign_flip_test(differences: NDArray[np.float64], rng: np.random.Generator) -> float:
+    """The same without Student's t: where there are too many choices of signs to count, as many are drawn.
+
+    For numbers that are mostly 0, as of rare agents. What is 0 has no sign to choose.
+    """
+    own = differences[differences != 0.0]
+    complete = 2 ** len(own) <= LARGEST_EXACT
+    observed, extreme, n = abs(own.sum()) - 1e-12, 0, 2 ** len(own) if complete else LARGEST_EXACT
+    for first in range(0, n, FLIPPED_AT_ONCE):
+        choices = np.arange(first, min(n, first + FLIPPED_AT_ONCE))[:, np.newaxis]
+        flipped = (
+            choices >> np.arange(len(own)) & 1 if complete else rng.integers(0, 2, (len(choices), len(own)))
+        )
+        extreme += np.count_nonzero(np.abs((1 - 2 * flipped) @ own) >= observed)
+    return float(extreme / n if complete else (extreme + 1) / (n + 1))
 
 
 def midranks(values: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import ActionWord, Readings
-from arm2d.constants import BETA_MAX, DT, GOOD_STEPS_FOR_SUCCESS, MAX_STEPS
+from arm2d.constants import BETA_MAX, DT, GOOD_STEPS_FOR_SUCCESS, MAX_STEPS, STRAIGHT
 from arm2d.geometry import in_view
 from mujoco_port.acting.contacts import ARM, HAND, OBJECT, RIGHT_SIDE
 from mujoco_port.acting.rollout import PhysicalRecord
@@ -33,7 +33,6 @@ from mujoco_port.acting.rollout import PhysicalRecord
 GOOD_TIME_S: Final = DT * GOOD_STEPS_FOR_SUCCESS
 # Contacts of two hard bodies chatter. A break of at most this long is none.
 LONGEST_BREAK_S: Final = 0.02
-STRAIGHT: Final = 0.99  # of F3, under the strict reading of success
 UPRIGHT: Final = float(
     np.cos(np.radians(10.0))
 )  # a cylinder of 17 mm falls at 37, the narrowest, of 8 mm, at 20

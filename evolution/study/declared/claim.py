@@ -10,17 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition
+from arm2d.tasks.task import AnyTask
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.report.columns import PlainTable
 from evolution.results.statistics import (
     bootstrap_interval,
     declared_ways,
     difference_of_means,
+    drawn_sign_flip_test,
     mean_interval,
     permutation_p,
     proportions_interval,
     ratio_of_means,
-    sign_flip_test,
 )
 from evolution.search.randomness import Purpose, generator
 from evolution.study.declared.beta_binomial import Counts, compare_counts
@@ -123,33 +124,43 @@ def answers(runs: Sequence[MeasuredRun]) -> list[Answer]:
 
 def shares_by_world(runs: Sequence[MeasuredRun], question: Question) -> NDArray[np.float64]:
     """Shares [W, 2], With-Indicate and With-Ignore, in the W worlds in which both can tell."""
-    by_condition = [
-        {
-            run.config.seed: run.counts[question.count] / run.counts[question.among]
-            for run in runs
-            if run.config.condition is condition and run.counts[question.among]
-        }
-        for condition in Condition
-    ]
-    first, second = by_condition
+    able = [run for run in runs if run.counts[question.among]]
+    return _by_world(able, lambda run: run.counts[question.count] / run.counts[question.among])
+
+
+def _by_world(runs: Iterable[MeasuredRun], number: Callable[[MeasuredRun], float]) -> NDArray[np.float64]:
+    """A number of each run [W, 2], With-Indicate and With-Ignore, in the W worlds that both met."""
+    found: dict[AnyTask, dict[int, float]] = {condition: {} for condition in Condition}
+    for run in runs:
+        found[run.config.condition][run.config.seed] = number(run)
+    first, second = found.values()
     both = sorted(first.keys() & second.keys())
-    return np.array([(first[seed], second[seed]) for seed in both]).reshape(-1, 2)
+    return np.array([(first[seed], second[seed]) for seed in both], float).reshape(-1, 2)
 
 
 def averaged_over_worlds(runs: Sequence[MeasuredRun]) -> list[Answer]:
     """The same questions over the worlds that both conditions met, as paired differences."""
-    found = []
-    for question in QUESTIONS:
-        shares = shares_by_world(runs, question)
-        if len(shares) < 2:
-            continue
-        differences, means = shares[:, 0] - shares[:, 1], shares.mean(axis=0)
-        interval = mean_interval(differences, generator(0, Purpose.STATISTICS))
-        n, p = len(differences), sign_flip_test(differences)
-        difference = Estimate(float(differences.mean()), *interval)
-        found.append(Answer(question.name, (n, n), (float(means[0]), float(means[1])), difference, p))
+    shares = {question.name: shares_by_world(runs, question) for question in QUESTIONS}
+    having = {
+        _runs_with(kind): _by_world(runs, lambda run, kind=kind: run.counts[kind] > 0) for kind in HAVING
+    }
+    decides = QUESTIONS[0].name
+    found = [
+        _by_differences(name, pairs)
+        for name, pairs in ({decides: shares.pop(decides)} | having | shares).items()
+        if len(pairs) >= 2
+    ]
     corrected = [found[0].p, *holm(np.array([each.p for each in found[1:]]))] if found else []
     return [replace(each, corrected=float(p)) for each, p in zip(found, corrected, strict=True)]
+
+
+def _by_differences(name: str, pairs: NDArray[np.float64]) -> Answer:
+    """A question answered by numbers of two conditions in the same worlds, [W, 2]."""
+    differences, means = pairs[:, 0] - pairs[:, 1], pairs.mean(axis=0)
+    interval = mean_interval(differences, generator(0, Purpose.STATISTICS))
+    p = drawn_sign_flip_test(differences, generator(0, Purpose.STATISTICS))
+    difference = Estimate(float(differences.mean()), *interval)
+    return Answer(name, (len(pairs), len(pairs)), (float(means[0]), float(means[1])), difference, p)
 
 
 def verdict(under_default: Answer, over_worlds: Estimate) -> str:
@@ -235,7 +246,12 @@ def _by_runs(kind: str, groups: Sequence[Sequence[MeasuredRun]]) -> Answer:
     (k1, n1), (k2, n2) = counted
     p: Any = fisher_exact([[k1, n1 - k1], [k2, n2 - k2]])[1]
     difference = Estimate((k1 / n1) - (k2 / n2), *proportions_interval(*counted))
-    return Answer(f"runs with {kind} agents", (n1, n2), (k1 / n1, k2 / n2), difference, float(p))
+    return Answer(_runs_with(kind), (n1, n2), (k1 / n1, k2 / n2), difference, float(p))
+
+
+def _runs_with(kind: str) -> str:
+    """What is asked of runs that have agents of a class."""
+    return f"runs with {kind} agents"
 
 
 def _holds_zero(each: Estimate) -> bool:

@@ -7,6 +7,7 @@ from scipy import stats
 from evolution.results.statistics import (
     bootstrap_interval,
     compare,
+    drawn_sign_flip_test,
     mean_interval,
     midranks,
     permutation_test,
@@ -108,3 +109,20 @@ def test_worlds_alike_in_every_run_do_not_differ_however_many_runs_there_are():
     for n in (4, 16, 17, 40):
         assert sign_flip_test(np.zeros(n)) == 1.0
     assert sign_flip_test(np.full(17, 0.5)) == 0.0
+
+
+def test_drawn_signs_give_what_counted_ones_do_and_zeros_have_no_sign():
+    """SciPy's permutation test of pairs draws signs, too."""
+    rng = np.random.default_rng(3)
+    few = rng.normal(0.3, 1, 14)
+    for zeros in (0, 100):
+        found = drawn_sign_flip_test(np.concatenate([few, np.zeros(zeros)]), np.random.default_rng(0))
+        assert found == sign_flip_test(few)
+    many = rng.exponential(1.0, 40) * rng.choice([-1, 1, 1], 40)
+    theirs = stats.permutation_test(
+        (many,), np.sum, permutation_type="samples", n_resamples=100_000, rng=np.random.default_rng(1)
+    )
+    found = drawn_sign_flip_test(many, np.random.default_rng(0))
+    assert found == pytest.approx(float(theirs.pvalue), rel=0.1)
+    assert drawn_sign_flip_test(np.zeros(30), rng) == 1.0
+    assert drawn_sign_flip_test(np.ones(40), rng) == pytest.approx(1 / 200_001)

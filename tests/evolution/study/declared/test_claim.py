@@ -15,6 +15,7 @@ from evolution.runs.interrupt import StopRequest
 from evolution.study.declared.beta_binomial import compare_counts
 from evolution.study.declared.claim import (
     FULL,
+    HAVING,
     QUESTIONS,
     answer_table,
     answers,
@@ -170,7 +171,32 @@ def test_worlds_are_compared_with_themselves():
     assert first.difference.value == pytest.approx(first.means[0] - first.means[1])
     assert first.difference.low > 0.02
     assert first.difference.high < 0.06
-    assert first.p < 1e-6
+    assert first.p == pytest.approx(1 / 200_001)  # as few as signs are drawn
+
+
+def test_worlds_answer_the_questions_that_runs_do_in_their_order(default_questions):
+    """Runs that have agents of a class are counted, too: pairs of worlds in which one condition has."""
+    runs = []
+    for config in configs():
+        one = made_up(config)
+        k = int(config.seed % 2 == 0 or (config.seed % 5 == 0 and config.condition is INDICATE))
+        runs.append(replace(one, counts={**one.counts, FULL: k}))
+    found = averaged_over_worlds(runs)
+    told = [each.question for each in found]
+    assert told == [each for each in default_questions if each in told]
+    having = found[1]
+    assert having.question == "runs with fully compositional agents"
+    both = {run.config.seed for run in runs if run.config.condition is INDICATE}
+    both &= {run.config.seed for run in runs if run.config.condition is IGNORE}
+    alone = sum(seed % 10 == 5 for seed in both)
+    assert having.difference.value == pytest.approx(alone / len(both))
+    assert having.p == pytest.approx(2.0 ** (1 - alone), rel=1e-9)
+
+
+@pytest.fixture
+def default_questions():
+    first, *others = (question.name for question in QUESTIONS)
+    return [first, *(f"runs with {kind} agents" for kind in HAVING), *others]
 
 
 def test_ratio_is_of_the_means_and_told_only_where_enough_runs_have_any():
