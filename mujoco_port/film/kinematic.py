@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from arm2d import TrialRecord
 from arm2d.constants import DT
 from arm2d.records import brief
-from models.robots import Robot
+from models.robots import Robot, get_robot
 from mujoco_port.acting.stepping_over import stepping_over
 from mujoco_port.reach.kinematics import ArmKinematics
 from mujoco_port.reach.workspace import for_world, hand_headings, hand_targets, on_table, tip_in_plane
@@ -44,19 +44,19 @@ class Rollout:
         return self.steps * DT
 
 
-def roll_out(record: TrialRecord, robot: Robot, frames_per_step: float = FRAMES_PER_STEP) -> Rollout:
+def roll_out(record: TrialRecord, robot: Robot | str, frames_per_step: float = FRAMES_PER_STEP) -> Rollout:
     """Let a robot follow a recorded trial.
 
     Args:
         record: K steps.
-        robot: Its record; its table is laid for the trial's world.
+        robot: Its record, or its name; its table is laid for the trial's world.
         frames_per_step: Moments for each control step; 1 gives the record's own K + 1 states. The last
             moment is the end of the trial in any case.
 
     Raises:
         OutOfReachError: If the robot cannot reach a place.
     """
-    robot = for_world(robot, record.readings)
+    robot = for_world(get_robot(robot) if isinstance(robot, str) else robot, record.readings)
     steps = moments(record.steps, frames_per_step)
     alpha, beta = _at(record.alpha, steps), _at(record.beta, steps)
     headings = hand_headings(robot.plane, alpha, beta)

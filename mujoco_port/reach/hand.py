@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from difflib import get_close_matches
+
 import numpy as np
 import pinocchio as pin
 
@@ -11,8 +14,13 @@ from models.urdf import find_urdf
 
 
 def hand_model(robot: Robot) -> tuple[pin.Model, int]:
-    """Give the model of the joints that reach, all others held, and the index of its hand's frame."""
+    """Give the model of the joints that reach, all others held, and the index of its hand's frame.
+
+    Raises:
+        ValueError: If the robot's description has no such joint or frame.
+    """
     model = _standing(robot, robot.joints)
+    _refuse_unknown(robot, "frame", [robot.hand_frame], [frame.name for frame in model.frames])
     link = model.frames[model.getFrameId(robot.hand_frame)]
     offset = pin.SE3(np.eye(3), np.array(robot.hand_offset))
     hand = pin.Frame("hand", link.parentJoint, link.placement * offset, pin.FrameType.OP_FRAME)
@@ -52,6 +60,7 @@ def _add_eye(model: pin.Model, presence: Presence, eye: Eye) -> None:
 def _standing(robot: Robot, joints: tuple[str, ...]) -> pin.Model:
     """A model of some joints, the others held at their angle in the robot's record."""
     whole = pin.buildModelFromUrdf(str(find_urdf(robot)))
+    _refuse_unknown(robot, "joint", [*joints, *robot.fixed], list(whole.names)[1:])
     locked = [index for index, name in enumerate(whole.names) if index > 0 and name not in joints]
     angles = pin.neutral(whole)
     for name, angle in robot.fixed.items():
@@ -62,3 +71,13 @@ def _standing(robot: Robot, joints: tuple[str, ...]) -> pin.Model:
         if model.parents[joint] == 0:
             model.jointPlacements[joint] = base * model.jointPlacements[joint]
     return model
+
+
+def _refuse_unknown(robot: Robot, kind: str, asked: Sequence[str], there: Sequence[str]) -> None:
+    """Refuse names that the robot's description does not have, and say which is nearest."""
+    for name in asked:
+        if name not in there:
+            near = get_close_matches(name, there, n=1, cutoff=0.0)
+            raise ValueError(
+                f"{robot.urdf} of the robot '{robot.name}' has no {kind} '{name}'; near to it: {near[0]}"
+            )

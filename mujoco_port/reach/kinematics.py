@@ -66,6 +66,9 @@ class ArmKinematics:
     Args:
         robot: Its record, or its name.
 
+    Raises:
+        ValueError: If the record names joints or a frame that its description does not have.
+
     Attributes:
         robot: The robot's record.
         rest: [J] in [rad], the posture that is approached.
@@ -92,6 +95,9 @@ class ArmKinematics:
         self._wishes = np.array([posture.heading_weight, posture.level_weight, posture.inertia])
         for array in (self.rest, self.lower, self.upper):
             array.flags.writeable = False
+
+    def __repr__(self) -> str:
+        return f"<ArmKinematics of {self.robot.name}: {len(self.rest)} joints>"
 
     def forward(self, angles: np.ndarray) -> HandPose:
         """Give the hand's pose for joint angles [J] in [rad]."""

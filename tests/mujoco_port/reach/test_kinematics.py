@@ -1,5 +1,6 @@
 """Inverse kinematics: how exactly the hand follows, and that Pinocchio and MuJoCo mean the same robot."""
 
+import re
 from dataclasses import replace
 
 import mujoco
@@ -8,7 +9,7 @@ import pytest
 from scipy.optimize import least_squares
 
 from models.build import HAND_SITE, ROBOT_PREFIX, build_model
-from models.robots import ROBOTS, get_robot
+from models.robots import ICUB, ROBOTS, get_robot
 from mujoco_port.film.kinematic import roll_out
 from mujoco_port.reach.kinematics import MAX_TURN, ArmKinematics, OutOfReachError
 from mujoco_port.reach.workspace import hand_headings, hand_targets
@@ -216,3 +217,16 @@ def test_what_is_not_a_number_is_refused_wherever_it_stands(kinematics, robot, b
         kinematics.step(broken, target, heading)
     with pytest.raises(ValueError, match=r"heading .* rad holds what is not a finite number"):
         kinematics.follow(np.array([target, target]), np.array([heading, bad]))
+
+
+@pytest.mark.parametrize(
+    ("changed", "sentence"),
+    [
+        ({"joints": ("torso_pich", *ICUB.joints[1:])}, "has no joint 'torso_pich'; near to it: torso_pitch"),
+        ({"hand_frame": "r_hand_dh_fram"}, "has no frame 'r_hand_dh_fram'; near to it: r_hand_dh_frame"),
+        ({"fixed": {"nek_pitch": 0.1}}, "has no joint 'nek_pitch'; near to it: neck_pitch"),
+    ],
+)
+def test_a_record_that_its_description_contradicts_is_refused(changed, sentence):
+    with pytest.raises(ValueError, match=re.escape(sentence)):
+        ArmKinematics(replace(ICUB, **changed))
