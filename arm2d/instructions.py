@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum, StrEnum
+from reprlib import repr as shortened
 from typing import TypeVar
 
 
@@ -42,6 +44,13 @@ class Instruction:
 
     action: ActionWord
     object: ObjectWord
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.action, ActionWord) or not isinstance(self.object, ObjectWord):
+            raise ValueError(
+                f"an instruction is an ActionWord and an ObjectWord, not {self.action!r} and "
+                f"{self.object!r}; text such as 'touch green' is read by Instruction.parse"
+            )
 
     @classmethod
     def parse(cls, text: str) -> Instruction:
@@ -111,6 +120,30 @@ NON_EXPERIENCED = (
     Instruction(ActionWord.TOUCH, ObjectWord.GREEN),
     Instruction(ActionWord.MOVE, ObjectWord.BLUE),
 )
+
+
+def instruction_of(asked: Instruction | str) -> Instruction:
+    """An instruction, given as a record or as text.
+
+    Raises:
+        ValueError: If it is neither, or the text is not understood.
+    """
+    if isinstance(asked, Instruction):
+        return asked
+    if isinstance(asked, str):
+        return Instruction.parse(asked)
+    raise ValueError(f"{shortened(asked)} is no instruction; give text such as 'touch green'")
+
+
+def instructions_of(asked: Iterable[Instruction | str] | Instruction | str) -> list[Instruction]:
+    """One instruction or several, each a record or text.
+
+    Raises:
+        ValueError: If it is neither, or a text is not understood.
+    """
+    if isinstance(asked, Instruction | str) or not isinstance(asked, Iterable):
+        return [instruction_of(asked)]
+    return [each if isinstance(each, Instruction) else instruction_of(each) for each in asked]
 
 
 def _find_word(words: type[Word], kind: str, text: str) -> Word:

@@ -11,7 +11,10 @@ from functools import cache
 from itertools import pairwise
 from math import degrees
 from numbers import Integral, Real
+from reprlib import repr as shortened
 from typing import Any, Final, Literal, get_args, get_origin, get_type_hints
+
+from arm2d.constants import ALPHA_MAX, ALPHA_MIN
 
 TURN_LATTICE = 2**44
 LARGEST_WHOLE = 10**300  # beyond, a whole number is not turned into a float
@@ -186,6 +189,28 @@ def choices() -> dict[str, tuple[str, ...]]:
     return {name: get_args(hint) for name, hint in hints.items() if get_origin(hint) is Literal}
 
 
+def given_or_default(readings: Readings | None) -> Readings:
+    """The readings that are given, or else the default ones.
+
+    Raises:
+        ValueError: If they are of another kind.
+    """
+    return Readings() if readings is None else checked_readings(readings)
+
+
+def checked_readings(readings: Readings) -> Readings:
+    """The readings that are given.
+
+    Raises:
+        ValueError: If they are of another kind, such as the name of a preset.
+    """
+    if isinstance(readings, Readings):
+        return readings
+    raise ValueError(
+        f"readings = {shortened(readings)} must be a record, such as Readings() or Readings.preset('plain')"
+    )
+
+
 def _check_geometry(readings: Readings) -> None:
     """Refuse worlds in which the experiment makes no sense."""
     _check_interval("object_radius", readings.object_radius, 0.1, 11.8)
@@ -196,6 +221,13 @@ def _check_geometry(readings: Readings) -> None:
         raise ValueError(
             f"reading sector_centres = {centres}; "
             "give three rising bearings in [-15, 195] degrees, such as 30, 90, 150"
+        )
+    (lowest, _), (_, highest) = readings.start_intervals
+    if lowest < ALPHA_MIN or highest > ALPHA_MAX:
+        raise ValueError(
+            f"with sector_centres = {centres}, start_half_width = {readings.start_half_width:g} and "
+            f"start_areas = {readings.start_areas!r}, S1 would start between {lowest:g} and {highest:g} "
+            f"degrees; it turns from {ALPHA_MIN:g} to {ALPHA_MAX:g}"
         )
 
 

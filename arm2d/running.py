@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
+from reprlib import repr as shortened
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +20,7 @@ from arm2d.kernel.loop import run_population
 from arm2d.kernel.network import Inter
 from arm2d.kernel.world import WORD_CODES, tables_of, world_of
 from arm2d.network.controller import check_genotypes, decode_flat, n_inter_of
-from arm2d.readings import Readings
+from arm2d.readings import Readings, given_or_default
 from arm2d.tasks.hearing import phase_after, phases, word_bits
 from arm2d.trials import TrialRecord, Trials, TrialScores
 
@@ -33,7 +34,7 @@ def run_trials(
     *,
     each_own: bool = False,
     threads: int = 1,
-    word_codes: NDArray[np.int64] | None = None,
+    word_codes: ArrayLike | None = None,
 ) -> TrialScores:
     """Run every trial with every genotype, or each genotype's own trials with it.
 
@@ -44,23 +45,23 @@ def run_trials(
         readings: The world; the default readings if none are given.
         each_own: Whether each genotype has trials of its own.
         threads: Genotypes are shared out among so many threads. The results do not depend on it.
-        word_codes: [7, 3], how three object words, then four action words are heard; by default as the
-            trials' task, or else spec section 4, has them. A lesion experiment changes a row.
+        word_codes: [7, 3] of 0 and 1, how three object words, then four action words are heard; by default
+            as the trials' task, or else spec section 4, has them. A lesion experiment changes a row.
 
     Returns:
         Scores with arrays [P, T].
 
     Raises:
-        ValueError: If a genotype has another shape, a gene is not a number in [0, 1], or the trials cannot be
-            shared out among the genotypes.
+        ValueError: If a genotype has another shape, a gene is not a number in [0, 1], the trials cannot be
+            shared out among the genotypes, or the words' codes are others than 0 and 1.
     """
-    readings = readings or Readings()
+    readings = given_or_default(readings)
     if threads < 1:
         raise ValueError(f"asked for {threads} threads; there must be at least 1")
     genes = check_genotypes(genotypes)
     n_trials = own_trials_of_each(len(genes), len(trials)) if each_own else len(trials)
     networks, arrays = decode_flat(genes, readings), arrays_of(trials)
-    codes = codes_of(trials) if word_codes is None else word_codes
+    codes = codes_of(trials) if word_codes is None else _checked_codes(word_codes)
     world, tables = world_of(readings), tables_of(readings)._replace(codes=codes)
     outcomes, inter = empty_outcomes(len(genes), n_trials), _inter_of(genes)
 
@@ -104,7 +105,7 @@ def record_trial(genotype: ArrayLike, trial: Trials, readings: Readings | None =
     Raises:
         ValueError: If there is more than one trial or genotype, or the genotype is unsound.
     """
-    readings = readings or Readings()
+    readings = given_or_default(readings)
     genes = check_genotypes(genotype)
     if len(trial) != 1 or len(genes) != 1:
         raise ValueError(
@@ -129,6 +130,17 @@ def _inter_of(genotypes: NDArray[np.float64]) -> Inter:
 def codes_of(trials: Trials) -> NDArray[np.int64]:
     """How the words of these trials are heard, [7, 3]."""
     return WORD_CODES if trials.task is None else np.array(trials.task.word_codes)
+
+
+def _checked_codes(word_codes: ArrayLike) -> NDArray[np.int64]:
+    """The codes of words [7, 3] as the kernel takes them: it reads them without asking where they end."""
+    codes = np.asarray(word_codes, dtype=object)  # rows of unequal length as well
+    right = "word_codes must be [7, 3] of 0 and 1, for three object words, then four action words"
+    if codes.shape != WORD_CODES.shape:
+        raise ValueError(f"{right}; these are {list(codes.shape)}")
+    if len(wrong := codes[~np.isin(codes, (0, 1))]):
+        raise ValueError(f"{right}; one is {shortened(wrong[0])}")
+    return np.array(codes, dtype=np.int64, order="C")
 
 
 def arrays_of(trials: Trials) -> exchange.TrialArrays:

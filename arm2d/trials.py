@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
+from numbers import Integral
+from reprlib import repr as shortened
 from typing import Final, Literal
 
 import numpy as np
@@ -15,10 +17,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import constants as c
 from arm2d.arithmetic import sin_cos
-from arm2d.instructions import ActionWord, Instruction, ObjectWord
-from arm2d.readings import Readings
+from arm2d.instructions import ActionWord, Instruction, ObjectWord, instructions_of
+from arm2d.readings import Readings, checked_readings
 from arm2d.records import brief
-from arm2d.tasks.task import AnyTask, Task, as_paper
+from arm2d.tasks.task import AnyTask, Task, as_paper, check_asked, own_task
 
 MOST_PER_AREA = 100_000
 StartArea = Literal["right", "left"]
@@ -34,7 +36,11 @@ class LabelChanges:
         first_objects: [T], the words heard from the start.
         later_actions: [T] and
         later_objects: [T], the words heard after the change.
-        delays: [T], steps from the first step after which the target is in view to the change; 0 to 9.
+        delays: [T], steps from the first step after which the target is in view to the change; 0 to 250.
+            The transition tests draw 0 to 9.
+
+    Raises:
+        ValueError: If a row does not hold whole numbers in these bounds, or they are not equally long.
     """
 
     first_actions: NDArray[np.int64]
@@ -54,6 +60,12 @@ class LabelChanges:
             ("delays", 0, c.MAX_STEPS),
         ):
             _store(self, name, _whole_numbers(name, getattr(self, name), low, high))
+        lengths = [len(getattr(self, each.name)) for each in fields(self)]
+        if len(set(lengths)) > 1:
+            raise ValueError(
+                f"the rows of label changes have the lengths {', '.join(map(str, lengths))}; "
+                "they must be equally long, one entry for each trial"
+            )
 
     def __getitem__(self, index: slice | NDArray[np.int64]) -> LabelChanges:
         return LabelChanges(*(getattr(self, each.name)[index] for each in fields(self)))
@@ -69,7 +81,11 @@ class Trials:
         alpha: [T], angle of S1 in [deg].
         discs: [T, 3, 2], centres of the blue, green and red disc in [cm].
         changes: The words heard, where they are not those that are scored throughout.
-        task: How the words are said, if not as in the paper; see `arm2d.Task`.
+        task: How the words are said, if not as in the paper; see `arm2d.Task`. A condition of the paper, or
+            its name, is taken too and kept as None.
+
+    Raises:
+        ValueError: If the arrays do not fit together, a start leaves the world, or there is no such task.
     """
 
     actions: NDArray[np.int64]
@@ -84,6 +100,7 @@ class Trials:
         _store(self, "objects", _whole_numbers("objects", self.objects, 0, len(ObjectWord) - 1))
         _store(self, "alpha", np.array(self.alpha, dtype=np.float64))
         _store(self, "discs", np.array(self.discs, dtype=np.float64))
+        object.__setattr__(self, "task", own_task(self.task))
         _check_starts(self)
         if self.changes is not None and self.task is not None and self.task.in_sequence:
             raise ValueError("words that come one after the other cannot change in mid-trial; leave one out")
@@ -210,7 +227,7 @@ def draw_trials(
     per_area: int,
     readings: Readings,
     rng: np.random.Generator,
-    task: AnyTask | None = None,
+    task: AnyTask | str | None = None,
 ) -> Trials:
     """Trials of each instruction from fresh starts: `per_area` in the right area, then as many in the left.
 
@@ -222,25 +239,23 @@ def draw_trials(
         per_area: Trials of each instruction from each start area.
         readings: The world.
         rng: Every draw comes from it.
-        task: How the words are said and where the colours stand, if not as in the paper.
+        task: Which instructions there are, how their words are said and where the colours stand: a condition
+            of the paper, its name, or a `Task`. If none is given, any instruction is taken, as in the paper.
 
     Raises:
-        ValueError: If there are no trials to draw, too many, or an instruction is not understood.
+        ValueError: If there are no trials to draw, too many, an instruction is not understood or not one of
+            the task's, or an argument is of another kind.
     """
-    asked = [instructions] if isinstance(instructions, Instruction | str) else instructions
-    instructions = [Instruction.parse(each) if isinstance(each, str) else each for each in asked]
-    if per_area < 1 or not instructions:
-        raise ValueError(
-            f"asked for {per_area} trials per area of {len(instructions)} instructions; "
-            "both must be at least 1"
-        )
-    if per_area > MOST_PER_AREA:
-        raise ValueError(f"asked for {per_area} trials per area; at most {MOST_PER_AREA} fit into the memory")
+    instructions = instructions_of(instructions)
+    _check_draw(per_area, len(instructions), readings, rng)
+    if task is not None:
+        task = as_paper(task)
+        check_asked(instructions, task)
     n = len(instructions)
     low, high = np.array(readings.start_intervals).T  # [2 areas]
     draws = rng.random((n, 2, per_area, 1 + c.N_OBJECTS))
     alpha = low[:, np.newaxis] + (high - low)[:, np.newaxis] * draws[..., 0]  # [n, 2, per_area]
-    own = _own_task(task)
+    own = own_task(task)
     ends = _chord_ends(readings)
     if own is not None and own.places == "dealt":
         sectors = rng.random((n, 2, per_area, c.N_OBJECTS)).argsort(axis=-1)
@@ -248,18 +263,25 @@ def draw_trials(
     discs = ends[0] + (ends[1] - ends[0]) * draws[..., 1:, np.newaxis]
     repeats = 2 * per_area
     return Trials(
-        actions=np.repeat([each.action for each in instructions], repeats),
-        objects=np.repeat([each.object for each in instructions], repeats),
+        actions=np.fromiter((each.action for each in instructions), np.int64, n).repeat(repeats),
+        objects=np.fromiter((each.object for each in instructions), np.int64, n).repeat(repeats),
         alpha=alpha.reshape(-1),
         discs=discs.reshape(-1, c.N_OBJECTS, 2),
         task=own,
     )
 
 
-def _own_task(task: AnyTask | None) -> Task | None:
-    """A task that is not the paper's; None of one that is."""
-    found = None if task is None else as_paper(task)
-    return found if isinstance(found, Task) else None
+def _check_draw(per_area: int, n: int, readings: Readings, rng: np.random.Generator) -> None:
+    """Refuse to draw trials of n instructions from what trials cannot be drawn from."""
+    if not isinstance(per_area, Integral):
+        raise ValueError(f"per_area = {shortened(per_area)} must be a whole number of trials, such as 40")
+    if per_area < 1 or not n:
+        raise ValueError(f"asked for {per_area} trials per area of {n} instructions; both must be at least 1")
+    if per_area > MOST_PER_AREA:
+        raise ValueError(f"asked for {per_area} trials per area; at most {MOST_PER_AREA} fit into the memory")
+    checked_readings(readings)
+    if not isinstance(rng, np.random.Generator):
+        raise ValueError(f"rng = {shortened(rng)} must be a generator, such as numpy.random.default_rng(1)")
 
 
 @lru_cache(maxsize=64)
@@ -286,7 +308,8 @@ def _whole_numbers(name: str, values: ArrayLike, low: int, high: int) -> NDArray
     if array.ndim != 1 or not np.issubdtype(array.dtype, np.integer):
         raise ValueError(f"{name} must be a row of whole numbers [T], not {array.dtype} {array.shape}")
     if array.size and not low <= array.min() <= array.max() <= high:
-        raise ValueError(f"{name} holds {array.min()} to {array.max()}; the codes are {low} to {high}")
+        numbers = "numbers of steps" if name == "delays" else "codes"
+        raise ValueError(f"{name} holds {array.min()} to {array.max()}; the {numbers} are {low} to {high}")
     return array.astype(np.int64)
 
 

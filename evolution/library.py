@@ -11,22 +11,26 @@ Axes: G generations, P genotypes of one generation, G genes (84 for three inter-
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from reprlib import repr as shortened
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d import Instruction, Readings, TrialRecord
+from arm2d import Condition, Instruction, Readings, TrialRecord
 from arm2d.tasks.task import AnyTask, as_paper, papers_condition
 from evolution.agents.behaviour import Behaviour, record_behaviour
 from evolution.agents.lineage import Lineage, trace_lineage
 from evolution.agents.recording import record_instruction
+from evolution.experiments import experiment
+from evolution.results.notable import NotableAgent
 from evolution.runs import run as loop
 from evolution.runs import sources
-from evolution.runs.folder import CHAMPIONS, RunFolder
+from evolution.runs.folder import CHAMPIONS, AnyRun, RunFolder
 from evolution.runs.history import History
 from evolution.runs.recorded import recorded_history
 from evolution.runs.replay import population_at
@@ -38,7 +42,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Agent(sources.Agent):
     """One evolved controller with the world it evolved in; see `find_agent`, `Run.agent`, `Run.champions`.
 
@@ -74,8 +78,7 @@ class Agent(sources.Agent):
         Raises:
             ValueError: If there is no such instruction, or its condition has none.
         """
-        asked = Instruction.parse(instruction) if isinstance(instruction, str) else instruction
-        return record_instruction(self, asked, start_area, trial_seed)
+        return record_instruction(self, instruction, start_area, trial_seed)
 
     def behaviour(self, *, per_area: int = 20, trial_seed: int = 0) -> Behaviour:
         """Trials of all nine instructions, step by step, with its neurons."""
@@ -161,7 +164,7 @@ class Run(RunFolder):
 
     def agent(self, generation: int = -1, rank: int = 0) -> Agent:
         """The genotype that came `rank`-th in a generation, from 0; raises as `genotypes`."""
-        return find_agent(self.path, generation=self._number(generation), rank=rank)
+        return find_agent(self, generation=self._number(generation), rank=rank)
 
     @cached_property
     def champions(self) -> tuple[Agent, ...]:
@@ -173,7 +176,7 @@ class Run(RunFolder):
         if not self.finished:
             raise ValueError(f"{self.path} is not finished and has no champions yet; run.agent() is its best")
         n = len(self.read_arrays(self.path / CHAMPIONS)["genotypes"])
-        return tuple(find_agent(self.path, rank=rank) for rank in range(n))
+        return tuple(find_agent(self, rank=rank) for rank in range(n))
 
     def lineage(self, generation: int = -1, rank: int = 0) -> Lineage:
         """The line of ancestors of an agent, from generation 0 on; raises as `genotypes`."""
@@ -192,14 +195,44 @@ class Run(RunFolder):
             raise ValueError(
                 f"{self.path} has no generation {generation}; it has {self.generations}, numbered from 0"
             )
-        return generation % self.generations
+        return int(generation % self.generations)
 
 
-def load(path: Path | str) -> Run:
+@dataclass(frozen=True)
+class Experiment(experiment.Experiment):
+    """The runs of an experiment, by condition and in the order of their seeds; see `open_experiment`.
+
+    Attributes:
+        path: Its folder.
+        runs: By condition.
+        unreadable: A sentence for every run whose config.toml cannot be understood.
+        copies: A sentence for every folder that holds a run which another one holds too.
+    """
+
+    runs: Mapping[Condition, tuple[Run, ...]]
+
+    @property
+    def all_runs(self) -> tuple[Run, ...]:
+        """All runs, condition by condition."""
+        return tuple(run for runs in self.runs.values() for run in runs)
+
+
+def open_experiment(path: Path | str) -> Experiment:
+    """The experiment in a folder; a single run's folder is an experiment of one.
+
+    Raises:
+        ValueError: If there is no readable run in it, or its runs took place under different readings.
+    """
+    found = experiment.open_experiment(path)
+    runs = {condition: tuple(map(Run.open, own)) for condition, own in found.runs.items()}
+    return Experiment(found.path, runs, found.unreadable, found.copies)
+
+
+def load(path: AnyRun) -> Run:
     """A run that was started before, finished or not.
 
     Args:
-        path: Its folder.
+        path: Its folder; a run as an experiment or its results hold it will do.
 
     Raises:
         ValueError: If there is none, or its config.toml cannot be understood.
@@ -219,24 +252,31 @@ def evolve(path: Path | str, config: RunConfig | None = None, watcher: loop.Watc
         watcher: Is told of progress, and may stop the run.
 
     Raises:
-        ValueError: If the folder holds something else, a damaged part, or is in use.
+        ValueError: If the config is no `RunConfig`, or the folder holds something else, a damaged part, or is
+            in use.
         OSError: If it cannot be written; what was written before stays whole.
     """
-    loop.evolve(Path(path), config or RunConfig(), watcher)
+    config = RunConfig() if config is None else config
+    if not isinstance(config, RunConfig):
+        raise ValueError(
+            f"config = {shortened(config)} must be a record, such as RunConfig(settings=Settings())"
+        )
+    loop.evolve(Path(path), config, watcher)
     return load(path)
 
 
 def find_agent(
-    text: Path | str,
+    source: AnyRun | NotableAgent,
     *,
     generation: int | None = None,
     rank: int = 0,
     condition: AnyTask | str | None = None,
 ) -> Agent:
-    """An agent by what it is called: a run's folder, a genotype file, or a shipped name.
+    """An agent by what it is called: a run, a genotype file, a shipped name; or the one that was found best.
 
     Args:
-        text: Run folder, genotype file (.npz or .npy), or a name such as "best-generaliser".
+        source: A run, its folder, a genotype file (.npz or .npy), a name such as "best-generaliser", or what
+            `best_agent` found, which needs no generation and rank.
         generation: Of the run; by default its champions are meant.
         rank: 0 for the best of the generation, of the champions, or of the file.
         condition: For files that do not tell; with-indicate if none is given.
@@ -245,4 +285,10 @@ def find_agent(
         ValueError: If there is no such thing, or it is not what it should be.
     """
     known = None if condition is None else as_paper(condition)
-    return Agent(**vars(sources.find_agent(str(text), generation=generation, rank=rank, condition=known)))
+    if isinstance(source, NotableAgent):
+        if (generation, rank) != (None, 0):
+            raise ValueError(
+                f"{source.run.path} and the agent's place are known; leave generation and rank out"
+            )
+        source, generation, rank = source.run, source.generation, source.rank
+    return Agent(**vars(sources.find_agent(source, generation=generation, rank=rank, condition=known)))

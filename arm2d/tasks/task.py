@@ -11,10 +11,11 @@ Wherever a condition of the paper is taken, a task is taken too.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from functools import cache, cached_property
 from hashlib import sha256
+from reprlib import repr as shortened
 from typing import TYPE_CHECKING, Any, Final, Literal, get_args, get_type_hints
 
 from arm2d.constants import MAX_STEPS
@@ -26,6 +27,7 @@ from arm2d.instructions import (
     Condition,
     Instruction,
     ObjectWord,
+    instruction_of,
 )
 
 if TYPE_CHECKING:
@@ -72,11 +74,9 @@ class Task:
             if getattr(self, name) not in get_args(hints[name]):
                 choices = " or ".join(get_args(hints[name]))
                 raise ValueError(f"task {name} = {getattr(self, name)!r}; choose {choices}")
-        held_out = [
-            each if isinstance(each, Instruction) else Instruction.parse(each) for each in self.held_out
-        ]
-        object.__setattr__(self, "held_out", tuple(sorted(held_out)))
-        object.__setattr__(self, "codes", tuple(self.codes))
+        held_out = _listed("held_out", self.held_out, (Instruction, str), "touch green")
+        object.__setattr__(self, "held_out", tuple(sorted(map(instruction_of, held_out))))
+        object.__setattr__(self, "codes", _listed("codes", self.codes, (str,), "touch 111"))
         _check_held_out(self)
         _check_codes(self)
         _check_word_steps(self)
@@ -183,9 +183,17 @@ def read_task(condition: str, values: Mapping[str, Any] | None = None) -> AnyTas
 
 
 def task_of(task: AnyTask | str) -> Task:
-    """A condition of the paper, by itself or by its name, or with-both, as a task; a task as it is."""
+    """A condition of the paper, by itself or by its name, or with-both, as a task; a task as it is.
+
+    Raises:
+        ValueError: If there is no such condition, or it is none of these.
+    """
     if isinstance(task, Task):
         return task
+    if not isinstance(task, str):
+        raise ValueError(
+            f"{shortened(task)} is no task; give an arm2d.Task, or {', '.join(Condition)} or {WITH_BOTH}"
+        )
     return _papers()[task] if isinstance(task, Condition) else Task(third=_third(task))
 
 
@@ -195,6 +203,25 @@ def as_paper(task: AnyTask | str) -> AnyTask:
         return task
     own = task_of(task)
     return next((condition for condition, papers in _papers().items() if own == papers), own)
+
+
+def own_task(task: AnyTask | str | None) -> Task | None:
+    """A task that is not the paper's; None of one that is, and of none."""
+    found = None if task is None else as_paper(task)
+    return found if isinstance(found, Task) else None
+
+
+def check_asked(instructions: Sequence[Instruction], task: AnyTask) -> None:
+    """Refuse instructions that a task does not have.
+
+    Raises:
+        ValueError: If there is one.
+    """
+    known = task.instructions
+    # Few objects, again and again: told apart as objects, they need not be compared.
+    for each in {id(each): each for each in instructions}.values():
+        if each not in known:
+            raise ValueError(f"{task} has no instruction {each}; it has {', '.join(map(str, known))}")
 
 
 @cache
@@ -247,6 +274,15 @@ def _check_kind(name: str, value: Any) -> None:
             raise ValueError(f"task word_steps = {value!r} must be a whole number")
     elif not isinstance(value, str):
         raise ValueError(f"task {name} = {value!r} must be text")
+
+
+def _listed(name: str, values: Any, kinds: tuple[type, ...], example: str) -> tuple[Any, ...]:
+    """Several values as a tuple, as long as each is of one of the kinds; a bare text is not several."""
+    several = isinstance(values, Iterable) and not isinstance(values, str)
+    listed = tuple(values) if several else ()
+    if not several or not all(isinstance(each, kinds) for each in listed):
+        raise ValueError(f"task {name} = {shortened(values)} must be a list of texts, such as [{example!r}]")
+    return listed
 
 
 def _check_held_out(task: Task) -> None:

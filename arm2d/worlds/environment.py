@@ -11,7 +11,7 @@ at all, or the other way, for S1 and S2. The return of an episode is the trial's
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, ClassVar, Final, Literal
+from typing import Any, ClassVar, Final
 
 import gymnasium
 import numpy as np
@@ -23,59 +23,14 @@ from numpy.typing import NDArray
 from arm2d.constants import N_INPUTS
 from arm2d.instructions import Condition, Instruction
 from arm2d.readings import Readings
-from arm2d.tasks.task import AnyTask, as_paper
-from arm2d.trials import Trials, draw_trials
+from arm2d.tasks.task import AnyTask
 from arm2d.video import Panel
+from arm2d.worlds.asking import Asked, Reward, Source, turns_of
 from arm2d.worlds.vector_world import VectorWorld
 from arm2d.worlds.world import World
 
 NAME: Final = "wordarm/Instructions-v0"
-Asked = Literal["experienced", "held-out", "all"]
-Reward = Literal["end", "progress"]
 PICTURE_SIZE: Final = 480  # [pixels]
-
-
-def asked_instructions(condition: AnyTask, asked: Asked | Sequence[str]) -> tuple[Instruction, ...]:
-    """The instructions that trials are drawn from.
-
-    Args:
-        condition: Which instructions there are.
-        asked: The seven experienced ones, the two held out, all nine, or instructions such as "touch red".
-
-    Raises:
-        ValueError: If it is none of these.
-    """
-    if isinstance(asked, str):
-        choices = {
-            "experienced": condition.experienced,
-            "held-out": condition.held_out,
-            "all": condition.instructions,
-        }
-        if asked not in choices:
-            raise ValueError(
-                f"asked for {asked!r} instructions; there are {', '.join(choices)}, or a list of them"
-            )
-        if not choices[asked]:
-            raise ValueError(f"the task {condition} holds out no instruction; ask for experienced or all")
-        return choices[asked]
-    return tuple(Instruction.parse(text) for text in asked)
-
-
-class _Source:
-    """What both environments draw trials from."""
-
-    def __init__(
-        self, condition: AnyTask | str, asked: Asked | Sequence[str], readings: Readings | None
-    ) -> None:
-        self.condition = as_paper(condition)
-        self.instructions = asked_instructions(self.condition, asked)
-        self.readings = readings or Readings()
-
-    def draw(self, n: int, rng: np.random.Generator) -> Trials:
-        """N trials, each of any of the instructions and from either start area."""
-        chosen = [self.instructions[i] for i in rng.integers(len(self.instructions), size=n)]
-        drawn = draw_trials(chosen, 1, self.readings, rng, self.condition)
-        return drawn[2 * np.arange(n) + rng.integers(2, size=n)]
 
 
 class InstructionsEnv(gymnasium.Env):
@@ -83,10 +38,14 @@ class InstructionsEnv(gymnasium.Env):
 
     Args:
         condition: "with-indicate", "with-ignore", "with-both", or an `arm2d.Task` of your own.
-        instructions: What trials are drawn from: "experienced" (for training), "held-out", "all", or a list.
+        instructions: What trials are drawn from: "experienced" (for training), "held-out", "all", or a list
+            of the condition's instructions.
         readings: How the paper is understood.
         reward: "end", all of F1 + F2 + F3 with the last step, or "progress", what each step adds to it.
         render_mode: "rgb_array" or none.
+
+    Raises:
+        ValueError: If an argument is none of these.
     """
 
     metadata: ClassVar = {"render_modes": ["rgb_array"], "render_fps": 10}  # type: ignore[misc]
@@ -96,24 +55,26 @@ class InstructionsEnv(gymnasium.Env):
     def __init__(
         self,
         condition: AnyTask | str = Condition.WITH_INDICATE,
-        instructions: Asked | Sequence[str] = "experienced",
+        instructions: Asked | Sequence[Instruction | str] = "experienced",
         readings: Readings | None = None,
         reward: Reward = "end",
         render_mode: str | None = None,
     ) -> None:
-        self.source = _Source(condition, instructions, readings)
+        self.source = Source(condition, instructions, readings, reward)
         self.reward, self.render_mode = reward, render_mode
         self.world = World(self.source.readings)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float64], dict[str, Any]]:
-        """Begin a trial; `options["instruction"]` chooses what is asked, such as "touch green"."""
+        """Begin a trial; `options["instruction"]` chooses what is asked, such as "touch green".
+
+        Raises:
+            ValueError: If the condition has no such instruction.
+        """
         super().reset(seed=seed)
-        start = self.source.draw(1, self.np_random)
+        start = self.source.first(1, self.np_random, options)
         self.instruction = start.instructions[0]
-        if options and "instruction" in options:
-            self.instruction = Instruction.parse(options["instruction"])
         inputs = self.world.reset(self.instruction, start=start)
         # What IGNORE is worth before anything has happened belongs to the first step's reward.
         self._paid = 0.0
@@ -122,8 +83,12 @@ class InstructionsEnv(gymnasium.Env):
     def step(
         self, action: NDArray[np.int64]
     ) -> tuple[NDArray[np.float64], float, bool, bool, dict[str, Any]]:
-        """Turn both joints; terminated when the trial ends."""
-        inputs = self.world.step(np.asarray(action) - 1)
+        """Turn both joints; terminated when the trial ends.
+
+        Raises:
+            ValueError: If the action is not two of 0, 1 and 2, or the trial is over.
+        """
+        inputs = self.world.step(turns_of(action, (2,)))
         ended, now = self.world.ended, self._now()
         info: dict[str, Any] = {"instruction": str(self.instruction)}
         reward = now - self._paid if ended or self.reward == "progress" else 0.0
@@ -155,6 +120,9 @@ class InstructionsVectorEnv(VectorEnv):
         reward: when it is paid.
         autoreset_mode: When another trial begins: with the next step, which pays nothing, or with the step
             that ends one. Then `final_obs` in the information is what was sensed last.
+
+    Raises:
+        ValueError: If an argument is none of these, or ended trials should not begin anew.
     """
 
     single_observation_space = InstructionsEnv.observation_space
@@ -164,7 +132,7 @@ class InstructionsVectorEnv(VectorEnv):
         self,
         num_envs: int = 1,
         condition: AnyTask | str = Condition.WITH_INDICATE,
-        instructions: Asked | Sequence[str] = "experienced",
+        instructions: Asked | Sequence[Instruction | str] = "experienced",
         readings: Readings | None = None,
         reward: Reward = "end",
         autoreset_mode: AutoresetMode = AutoresetMode.NEXT_STEP,
@@ -174,16 +142,21 @@ class InstructionsVectorEnv(VectorEnv):
         self.metadata = {"autoreset_mode": autoreset_mode}
         self._at_once = autoreset_mode is AutoresetMode.SAME_STEP
         self.num_envs = num_envs
-        self.source, self.reward = _Source(condition, instructions, readings), reward
+        self.source, self.reward = Source(condition, instructions, readings, reward), reward
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float64], dict[str, Any]]:
-        """Begin N trials."""
+        """Begin N trials; `options["instruction"]` chooses what they ask, not what those begun later ask.
+
+        Raises:
+            ValueError: If the condition has no such instruction.
+        """
         super().reset(seed=seed)
-        self.world = VectorWorld(self.source.draw(self.num_envs, self.np_random), self.source.readings)
+        start = self.source.first(self.num_envs, self.np_random, options)
+        self.world = VectorWorld(start, self.source.readings)
         self._over, self._paid = np.zeros(self.num_envs, np.bool_), np.zeros(self.num_envs)
         return self.world.inputs.copy(), {}
 
@@ -192,9 +165,13 @@ class InstructionsVectorEnv(VectorEnv):
     ) -> tuple[
         NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]
     ]:
-        """Turn the joints of all trials; those that have ended begin anew, at once or instead."""
+        """Turn the joints of all trials; those that have ended begin anew, at once or instead.
+
+        Raises:
+            ValueError: If the actions are not N pairs of 0, 1 and 2.
+        """
         began = np.flatnonzero(self._over)
-        self.world.step(np.asarray(actions) - 1)
+        self.world.step(turns_of(actions, (self.num_envs, 2)))
         self._begin(began)
         over = self.world.ended
         rewards, info = np.zeros(self.num_envs), {}

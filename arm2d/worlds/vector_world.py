@@ -2,25 +2,27 @@
 
 world = VectorWorld(draw_trials(instructions, 100, readings, rng), readings)
 while not world.ended.all():
-turns = policy(world.inputs)        # [N, 18] -> [N, 2], each -1, 0 or 1
-world.step(turns)
+    turns = policy(world.inputs)        # [N, 18] -> [N, 2], each -1, 0 or 1
+    world.step(turns)
 world.scores().success                  # [1, N]
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from reprlib import repr as shortened
 from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from arm2d import constants as c
-from arm2d.instructions import Instruction
+from arm2d.instructions import Instruction, instructions_of
 from arm2d.kernel import stepping
 from arm2d.kernel.controller import OBJECT_WORD_INPUTS
 from arm2d.kernel.lanes import N_INTEGER_FIELDS, N_LANES, N_WORLD_FIELDS
 from arm2d.kernel.world import tables_of, world_of
-from arm2d.readings import Readings
+from arm2d.readings import Readings, given_or_default
 from arm2d.running import arrays_of, codes_of, empty_outcomes
 from arm2d.tasks.hearing import phase_after, word_bits
 from arm2d.trials import Trials, TrialScores
@@ -56,7 +58,7 @@ class VectorWorld:
         readings: The world.
 
     Raises:
-        ValueError: If the trials have label changes, or there are none.
+        ValueError: If the trials have label changes, or there are none, or the readings are of another kind.
     """
 
     def __init__(self, trials: Trials, readings: Readings | None = None) -> None:
@@ -66,7 +68,7 @@ class VectorWorld:
             )
         if len(trials) == 0:
             raise ValueError("a world of no trials cannot be stepped; draw at least one")
-        self.readings = readings or Readings()
+        self.readings = given_or_default(readings)
         self._world, self._sines = world_of(self.readings), tables_of(self.readings).beta_sines
         blocks = (len(trials) + N_LANES - 1) // N_LANES
         self._blocks = stepping.Blocks(
@@ -83,6 +85,9 @@ class VectorWorld:
 
     def __len__(self) -> int:
         return len(self.inputs)
+
+    def __repr__(self) -> str:
+        return f"<VectorWorld: {len(self)} trial{'s' * (len(self) != 1)}, {self.ended.sum()} over>"
 
     @property
     def trials(self) -> Trials:
@@ -126,22 +131,24 @@ class VectorWorld:
             self._say(np.arange(len(self)))
         return self.inputs
 
-    def hear(self, instructions: Instruction | str | list[Instruction | str]) -> None:
+    def hear(self, instructions: Iterable[Instruction | str] | Instruction | str) -> None:
         """Change the words heard from the next step on, of all trials or one for each; scored is the old one.
 
         Raises:
-            ValueError: If there are neither one nor N instructions, or words come one after the other.
+            ValueError: If there are neither one nor N instructions, one is not understood, or words come
+                one after the other.
         """
         if self._task is not None and self._task.in_sequence:
             raise ValueError(
                 f"in the task {self._task} words come one after the other; they cannot be changed"
             )
-        heard = instructions if isinstance(instructions, list) else [instructions] * len(self)
+        heard = instructions_of(instructions)
+        if isinstance(instructions, Instruction | str):
+            heard = heard * len(self)
         if len(heard) != len(self):
             raise ValueError(f"{len(self)} trials hear one instruction or one each, not {len(heard)}")
-        parsed = [Instruction.parse(each) if isinstance(each, str) else each for each in heard]
-        actions = np.array([instruction.action for instruction in parsed])
-        objects = np.array([instruction.object for instruction in parsed])
+        actions = np.array([instruction.action for instruction in heard])
+        objects = np.array([instruction.object for instruction in heard])
         self.inputs[:, OBJECT_WORD_INPUTS:] = word_bits(actions, objects, self._codes)
 
     def restart(self, which: ArrayLike, trials: Trials) -> None:
@@ -152,9 +159,14 @@ class VectorWorld:
             trials: A batch of k, their new starts and instructions.
 
         Raises:
-            ValueError: If there are not as many starts as numbers, or no such trials.
+            ValueError: If there are not as many starts as numbers, no such trials, or no whole numbers.
         """
-        chosen = np.asarray(which, dtype=np.int64).reshape(-1)
+        numbers = np.asarray(which)
+        if numbers.size and numbers.dtype.kind not in "iu":
+            raise ValueError(
+                f"a restart takes whole numbers of trials, such as [0, 2], not {shortened(which)}"
+            )
+        chosen = numbers.astype(np.int64).reshape(-1)
         if trials.task != self._task:
             raise ValueError("trials of one task cannot be begun anew as trials of another")
         if len(chosen) != len(trials) or (chosen < 0).any() or (chosen >= len(self)).any():
@@ -214,7 +226,8 @@ def checked_turns(turns: ArrayLike, n: int) -> NDArray[np.int64]:
     array = np.asarray(turns)
     if array.shape != (n, 2) or array.dtype.kind not in "iuf":
         raise ValueError(
-            f"turns must be {n} pairs, S1's and S2's, each -1, 0 or 1; these are {array.dtype} {array.shape}"
+            f"turns must be {n} pair{'s' * (n != 1)}, S1's and S2's, each -1, 0 or 1; "
+            f"this is {array.dtype} {array.shape}"
         )
     possible = (array >= -1) & (array <= 1) & (array == np.rint(array))
     if not possible.all():

@@ -3,23 +3,24 @@
 world = arm2d.World()
 inputs = world.reset("touch green", seed=1)
 while not world.ended:
-inputs = world.step(controller(inputs))     # two of -1, 0 and 1: S1's turn and S2's
+    inputs = world.step(controller(inputs))     # two of -1, 0 and 1: S1's turn and S2's
 print(world.score(), world.record())
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from reprlib import repr as shortened
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from arm2d import constants as c
-from arm2d.instructions import Instruction
+from arm2d.instructions import Instruction, instruction_of
 from arm2d.kernel import exchange
-from arm2d.readings import Readings
+from arm2d.readings import Readings, given_or_default
 from arm2d.running import record_of
-from arm2d.tasks.task import Task
+from arm2d.tasks.task import AnyTask, as_paper, check_asked, own_task
 from arm2d.trials import TrialRecord, Trials, TrialScores, draw_trials
 from arm2d.worlds.vector_world import VectorWorld
 
@@ -32,14 +33,25 @@ class World:
 
     Args:
         readings: How the paper is understood; the default readings if none are given.
-        task: How words are said and where colours stand, if not as in the paper.
+        task: Which instructions there are, how words are said and where colours stand: a condition of the
+            paper, its name, or an `arm2d.Task`. If none is given, any instruction is taken, as in the paper.
+
+    Raises:
+        ValueError: If there is no such task, or the readings are of another kind.
     """
 
-    def __init__(self, readings: Readings | None = None, task: Task | None = None) -> None:
-        self.readings, self.task = readings or Readings(), task
+    def __init__(self, readings: Readings | None = None, task: AnyTask | str | None = None) -> None:
+        self.readings = given_or_default(readings)
+        self.task = None if task is None else as_paper(task)
         self._vector: VectorWorld | None = None
         self._rows: list[NDArray[np.float64]] = []
         self._inputs: list[NDArray[np.float64]] = []
+
+    def __repr__(self) -> str:
+        if self._vector is None:
+            return "<World: no trial yet>"
+        over = ", over" * self.ended
+        return f"<World: {self._vector.trials.instructions[0]}, step {len(self._rows)}{over}>"
 
     def reset(
         self, instruction: Instruction | str, *, seed: int | None = None, start: Trials | None = None
@@ -56,16 +68,19 @@ class World:
             The inputs [18], named by `INPUT_NAMES`.
 
         Raises:
-            ValueError: If the instruction is none, or both or too many starts are given.
+            ValueError: If the instruction is none, or not one of the task's, or both or too many starts are
+                given.
         """
-        words = Instruction.parse(instruction) if isinstance(instruction, str) else instruction
+        words = instruction_of(instruction)
+        if self.task is not None:
+            check_asked([words], self.task)
         if start is None:
             rng = np.random.default_rng(seed)
             start = draw_trials([words], 1, self.readings, rng, self.task)[int(rng.integers(2))]
-        elif seed is not None or len(start) != 1:
+        elif seed is not None or not isinstance(start, Trials) or len(start) != 1:
             raise ValueError("give either a seed or a start of exactly one trial")
         asked = np.array([words.action]), np.array([words.object])
-        trial = Trials(*asked, start.alpha, start.discs, task=start.task or self.task)
+        trial = Trials(*asked, start.alpha, start.discs, task=start.task or own_task(self.task))
         self._vector, self._rows, self._inputs = VectorWorld(trial, self.readings), [], []
         return self.inputs
 
@@ -87,8 +102,12 @@ class World:
         """
         if self.ended:
             raise ValueError("this trial is over; begin another one with reset")
-        row, sensed = np.zeros(_COLUMNS), self.inputs
-        self._current.step(np.asarray(turns)[np.newaxis], row)
+        row, sensed, pair = np.zeros(_COLUMNS), self.inputs, np.asarray(turns)
+        if pair.shape != (2,):
+            raise ValueError(
+                f"turns must be a pair, S1's and S2's, each -1, 0 or 1; this is {shortened(turns)}"
+            )
+        self._current.step(pair[np.newaxis], row)
         self._rows.append(row)
         self._inputs.append(sensed)
         return self.inputs

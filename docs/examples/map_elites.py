@@ -48,8 +48,9 @@ class MapElites:
     def behaviour_of(self, genotypes):
         """Mean F3 and mean duration of seven trials, the same for all genotypes, [P, 2]."""
         starts = np.random.default_rng(0)
-        trials = arm2d.draw_trials(self.config.condition.experienced, 1, self.config.readings, starts)
-        scores = arm2d.run_trials(genotypes, trials[::2], self.config.readings)
+        condition, readings = self.config.condition, self.config.readings
+        trials = arm2d.draw_trials(condition.experienced, 1, readings, starts, task=condition)
+        scores = arm2d.run_trials(genotypes, trials[::2], readings)
         return np.stack([scores.f3.mean(axis=1), scores.steps.mean(axis=1) / 250], axis=1)
 
     def state(self):

@@ -15,9 +15,11 @@ from arm2d import Condition, Instruction, Readings, TrialRecord, Trials, decode,
 from arm2d.arithmetic import sigmoid
 from arm2d.constants import MAX_STEPS
 from arm2d.geometry import in_view
+from arm2d.instructions import instruction_of
 from arm2d.records import brief
-from arm2d.tasks.task import AnyTask, papers_condition
+from arm2d.tasks.task import AnyTask, check_asked, papers_condition
 from evolution.agents.firsts import first_row
+from evolution.runs.history import alike
 from evolution.search.randomness import Purpose, generator
 
 TRIALS_PER_AREA: Final = 20
@@ -55,6 +57,7 @@ class Behaviour:
     first_touch: NDArray[np.int64]
 
     __repr__ = brief
+    __eq__ = alike
 
     def __len__(self) -> int:
         return len(self.instructions)
@@ -69,9 +72,15 @@ class Behaviour:
         """[T], code of the object word."""
         return self.instructions % 3
 
-    def of(self, instruction: Instruction) -> NDArray[np.int64]:
-        """The trials of one instruction."""
-        return np.flatnonzero(self.instructions == self.condition.instructions.index(instruction))
+    def of(self, instruction: Instruction | str) -> NDArray[np.int64]:
+        """The trials of one instruction; text such as "touch green" will do.
+
+        Raises:
+            ValueError: If the condition has no such instruction.
+        """
+        asked = instruction_of(instruction)
+        check_asked([asked], self.condition)
+        return np.flatnonzero(self.instructions == self.condition.instructions.index(asked))
 
     def arrays(self) -> dict[str, NDArray]:
         """Its arrays by name, ready for an .npz."""

@@ -21,8 +21,8 @@ from evolution.agents.parts import late_history
 from evolution.agents.postevaluation import N_INSTRUCTIONS, POST_EVALUATION
 from evolution.agents.subtasks import AgentClass, classify
 from evolution.agents.variance import WINDOWS, VarianceShares, bin_times, shares_by_event
-from evolution.runs.folder import RunFolder
-from evolution.runs.history import check_array, check_range
+from evolution.runs.folder import AnyRun, RunFolder
+from evolution.runs.history import alike, check_array, check_range
 from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.settings import N_BEST
 
@@ -79,6 +79,7 @@ class Observation:
     shares: NDArray[np.float64]
 
     __repr__ = brief
+    __eq__ = alike
 
 
 def observation_path(run: RunFolder, sampling: Sampling) -> Path:
@@ -87,17 +88,24 @@ def observation_path(run: RunFolder, sampling: Sampling) -> Path:
     return run.path / FOLDER / name
 
 
-def observe(run: RunFolder, sampling: Sampling = Sampling()) -> Observation:
+def observe(run: AnyRun, sampling: Sampling = Sampling()) -> Observation:
     """Observe a post-evaluated run's classes, or read what was observed before.
 
+    Args:
+        run: The run, or the path of its folder.
+        sampling: How many agents in how many trials.
+
     Raises:
-        ValueError: If the run is not post-evaluated.
+        ValueError: If there is no such run, it is not post-evaluated, or it is of a task that is not the
+            paper's.
         DamagedFileError: If a file is damaged.
     """
+    run = RunFolder.open(run)
+    condition = run.config.papers_condition
     if observation_path(run, sampling).exists():
         return read_observation(run, sampling)
     evaluation = POST_EVALUATION.read(run)
-    by_class = classify(evaluation.agents, run.config.papers_condition)
+    by_class = classify(evaluation.agents, condition)
     members = np.stack([by_class[kind] for kind in CLASSES]).reshape(len(CLASSES), -1, N_BEST)
     nobody = np.empty((*members.shape[1:], run.config.settings.n_genes))
     genotypes = late_history(run).best_genotypes if members.any() else nobody

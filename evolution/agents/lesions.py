@@ -18,6 +18,7 @@ from arm2d.kernel.world import WORD_CODES
 from arm2d.records import brief
 from arm2d.tasks.task import AnyTask, papers_condition
 from evolution.agents.behaviour import TRIALS_PER_AREA, draw_behaviour_trials
+from evolution.runs.history import alike
 
 WORDS: Final = ("action", "object")
 TIMES: Final = ("before sight", "after sight")
@@ -68,6 +69,7 @@ class LesionScores:
     lesioned: NDArray[np.float64]
 
     __repr__ = brief
+    __eq__ = alike
 
     def arrays(self) -> dict[str, NDArray]:
         """Its arrays by name, ready for an .npz."""
@@ -95,7 +97,7 @@ def lesion_scores(
     Raises:
         ValueError: If a genotype is unsound, or there are no trials.
     """
-    condition = papers_condition(condition, "the lesions")
+    condition = papers_condition(condition, "this test of lesions")
     trials = draw_behaviour_trials(condition, readings, per_area, trial_seed)
     intact = run_trials(genotypes, trials, readings).success
     lesioned = [_success(genotypes, trials, lesion, condition, readings) for lesion in LESIONS]

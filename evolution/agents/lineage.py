@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.records import brief
-from evolution.runs.folder import RunFolder
-from evolution.runs.history import History
+from evolution.runs.folder import AnyRun, RunFolder
+from evolution.runs.history import History, alike
 from evolution.runs.recorded import recorded_history
 from evolution.runs.replay import ContradictionError, replay
 from evolution.search.algorithm import rank as ranking
@@ -42,6 +42,7 @@ class Lineage:
     changed: NDArray[np.bool_]
 
     __repr__ = brief
+    __eq__ = alike
 
     def __post_init__(self) -> None:
         for field in fields(self):
@@ -61,18 +62,19 @@ class Lineage:
         return np.cumsum(self.changed) - 1
 
 
-def trace_lineage(folder: RunFolder, generation: int | None = None, rank: int = 0) -> Lineage:
+def trace_lineage(run: AnyRun, generation: int | None = None, rank: int = 0) -> Lineage:
     """Rebuild the line of ancestors of an agent of a run.
 
     Args:
-        folder: The run, finished or not.
+        run: The run, or the path of its folder; finished or not.
         generation: The agent's; by default the last that was scored.
         rank: 0 for the best of its generation.
 
     Raises:
-        ValueError: If the run has no such generation or rank.
+        ValueError: If there is no such run, or it has no such generation or rank.
         DamagedFileError: If the recorded parents or genotypes are not those that the run breeds.
     """
+    folder = RunFolder.open(run)
     history = recorded_history(folder)
     last = len(history) - 1 if generation is None else generation
     if not 0 <= last < len(history):

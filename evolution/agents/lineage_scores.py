@@ -19,6 +19,7 @@ from arm2d.tasks.task import AnyTask, papers_condition
 from evolution.agents.firsts import first_rows
 from evolution.agents.lineage import Lineage
 from evolution.agents.subtasks import USUALLY
+from evolution.runs.history import alike
 from evolution.search.randomness import Purpose, generator
 
 # A skill is had above the limit of the paper's classes of agents. It has come when 25 generations
@@ -54,6 +55,7 @@ class Skills:
     for_good: NDArray[np.int64]
 
     __repr__ = brief
+    __eq__ = alike
 
     @classmethod
     def along(cls, shares: NDArray[np.float64]) -> Skills:

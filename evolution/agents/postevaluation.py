@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from arm2d import draw_trials, run_trials
 from arm2d.records import brief
 from evolution.agents.parts import LateTest, best_genotypes
-from evolution.runs.folder import RunFolder
-from evolution.runs.history import check_array, check_range
+from evolution.runs.folder import AnyRun, RunFolder
+from evolution.runs.history import alike, check_array, check_range
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
 from evolution.search.randomness import Purpose, generator
@@ -43,6 +43,7 @@ class PostEvaluation:
     successes: NDArray[np.int16]
 
     __repr__ = brief
+    __eq__ = alike
 
     @property
     def agents(self) -> NDArray[np.int16]:
@@ -88,15 +89,15 @@ def _check(path: Path, arrays: Mapping[str, NDArray], run: RunFolder, span: rang
 POST_EVALUATION: Final = LateTest("postevaluation", PostEvaluation, _test, _check)
 
 
-def post_evaluate(run: RunFolder, report: Callable[[int, int], None] | None = None) -> PostEvaluation:
+def post_evaluate(run: AnyRun, report: Callable[[int, int], None] | None = None) -> PostEvaluation:
     """Post-evaluate a finished run, or go on where it was left; what is there already is read.
 
     Args:
-        run: The run.
+        run: The run, or the path of its folder.
         report: Told after every part how many of how many are done.
 
     Raises:
-        ValueError: If the run is not finished.
+        ValueError: If there is no such run, it is not finished, or it is of another task than the paper's.
         DamagedFileError: If a part of the run, or of the results, is damaged.
     """
-    return POST_EVALUATION.complete(run, report)
+    return POST_EVALUATION.complete(RunFolder.open(run), report)

@@ -6,10 +6,10 @@ from enum import StrEnum
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from arm2d import NON_EXPERIENCED, Condition, Instruction
-from arm2d.tasks.task import AnyTask
+from arm2d.tasks.task import AnyTask, papers_condition
 from evolution.agents.postevaluation import TRIALS
 
 TOUCH_GREEN, MOVE_BLUE = NON_EXPERIENCED
@@ -48,14 +48,35 @@ def categories(successes: NDArray[np.integer], condition: Condition) -> NDArray[
     Args:
         successes: [A, 9], of 80 trials each.
         condition: Names the nine instructions.
+
+    Raises:
+        ValueError: If these are no counts of 80 trials.
     """
-    order = condition.instructions
+    successes, order = counts_of(successes, condition), condition.instructions
     columns = [
         successes[:, [order.index(word) for word in instructions]].min(axis=1)
         for instructions in subtask_instructions(condition).values()
     ]
     lowest = np.stack(columns, axis=1).astype(np.int64)
     return -(-lowest // TRIALS_PER_CATEGORY)
+
+
+def counts_of(successes: ArrayLike, condition: AnyTask) -> NDArray[np.integer]:
+    """Successes [A, I] as an array, if they are counts of 80 trials of I instructions.
+
+    Raises:
+        ValueError: If they are anything else, such as shares or counts by start area.
+    """
+    found, n_instructions = np.asarray(successes), len(condition.instructions)
+    if found.dtype.kind not in "iu" or found.ndim != 2 or found.shape[1] != n_instructions:
+        raise ValueError(
+            f"successes must be whole numbers [A, {n_instructions}] of {TRIALS} trials, both start areas "
+            f"together, but had {found.dtype} {list(found.shape)}"
+        )
+    if ((found < 0) | (found > TRIALS)).any():
+        other = found.min() if (found < 0).any() else found.max()
+        raise ValueError(f"successes must be of {TRIALS} trials, so 0 to {TRIALS}, but had {other}")
+    return found
 
 
 def count_table(categories_: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -71,23 +92,34 @@ def usually(successes: NDArray[np.integer]) -> NDArray[np.bool_]:
 def obeys_experienced(successes: NDArray[np.integer], condition: AnyTask) -> NDArray[np.bool_]:
     """Which agents [A] exceed 75 % on every experienced instruction, of the paper or of another task."""
     known = [condition.instructions.index(word) for word in condition.experienced]
-    return np.all(usually(successes[:, known]), axis=1)
+    return np.all(usually(counts_of(successes, condition)[:, known]), axis=1)
 
 
 def carries_out(
     successes: NDArray[np.integer], condition: AnyTask, instruction: Instruction
 ) -> NDArray[np.bool_]:
     """Which agents [A] exceed 75 % on every experienced instruction, and on this one besides."""
-    column = successes[:, condition.instructions.index(instruction)]
+    column = counts_of(successes, condition)[:, condition.instructions.index(instruction)]
     return obeys_experienced(successes, condition) & usually(column)
 
 
-def classify(successes: NDArray[np.integer], condition: Condition) -> dict[AgentClass, NDArray[np.bool_]]:
+def classify(successes: ArrayLike, condition: AnyTask | str) -> dict[AgentClass, NDArray[np.bool_]]:
     """Which agents [A] belong to each class; those between the classes belong to none.
 
     Above 75 % means more than 60 of 80 trials, below 10 % fewer than 8.
+
+    Args:
+        successes: [A, 9], of 80 trials each, such as `post_evaluate(run).agents` or, of agents evaluated
+            with the usual 40 trials from each start area, `evaluate(...).successes.sum(axis=-1)`.
+        condition: Names the nine instructions; its name will do.
+
+    Raises:
+        ValueError: If these are no counts of 80 trials, or the condition is none of the paper's two, for
+            whose two instructions that are never met the classes are made.
     """
-    never_met = [condition.instructions.index(word) for word in NON_EXPERIENCED]
+    condition = papers_condition(condition, "this classification")
+    successes = counts_of(successes, condition)
+    never_met = [condition.instructions.index(word) for word in condition.held_out]
     counts = successes[:, never_met].astype(np.int64)
     high, low = usually(counts), 10 * counts < TRIALS
     known = obeys_experienced(successes, condition)

@@ -34,8 +34,8 @@ from arm2d.records import brief
 from evolution.agents.parts import LateTest, best_genotypes, joined
 from evolution.agents.postevaluation import POST_EVALUATION, TRIALS
 from evolution.agents.subtasks import AgentClass, classify, usually
-from evolution.runs.folder import RunFolder
-from evolution.runs.history import check_array, check_range
+from evolution.runs.folder import AnyRun, RunFolder
+from evolution.runs.history import alike, check_array, check_range
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
 from evolution.search.randomness import Purpose, generator
@@ -83,6 +83,7 @@ class TransitionTest:
     object: NDArray[np.int16]
 
     __repr__ = brief
+    __eq__ = alike
 
 
 def action_transitions(condition: Condition) -> tuple[Transition, ...]:
@@ -228,15 +229,15 @@ def _check(path: Path, arrays: Mapping[str, NDArray], run: RunFolder, span: rang
 TRANSITION_TEST: Final = LateTest("transitions", TransitionTest, transition_results, _check)
 
 
-def run_transition_test(run: RunFolder, report: Callable[[int, int], None] | None = None) -> TransitionTest:
+def run_transition_test(run: AnyRun, report: Callable[[int, int], None] | None = None) -> TransitionTest:
     """Test a post-evaluated run, or go on where it was left; what is there already is read.
 
     Args:
-        run: The run.
+        run: The run, or the path of its folder.
         report: Told after every part how many of how many are done.
 
     Raises:
-        ValueError: If the run is not post-evaluated.
+        ValueError: If there is no such run, or it is not post-evaluated.
         DamagedFileError: If a file is damaged.
     """
-    return TRANSITION_TEST.complete(run, report)
+    return TRANSITION_TEST.complete(RunFolder.open(run), report)

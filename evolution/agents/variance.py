@@ -15,6 +15,7 @@ from arm2d.constants import DT
 from arm2d.records import brief
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
+from evolution.runs.history import alike
 
 # Bins from so many steps before an event to so many after it.
 BEFORE, AFTER = 30, 60
@@ -61,6 +62,7 @@ class VarianceShares:
     actions: NDArray[np.int64]
 
     __repr__ = brief
+    __eq__ = alike
 
     def mean(self, start: float, stop: float) -> tuple[float, float, float]:
         """Mean shares of object, action and crossed between two times [s], bounds included; else NaN."""

@@ -33,7 +33,13 @@ MEAN_COLOUR: Final = SERIES[3]
 
 
 def heat_map(evaluation: Evaluation, origin: str = "") -> Figure:
-    """A page with the successes of one agent on all nine instructions."""
+    """A page with the successes of one agent on all nine instructions.
+
+    Raises:
+        ValueError: If the evaluation is of several agents.
+    """
+    if (n := len(evaluation.successes)) != 1:
+        raise ValueError(f"a heat map is of one agent, not of {n}; evaluate one of them")
     with look(STYLE):
         figure = Figure(figsize=(COLUMN, 3.35))
         axes = figure.add_axes((0.2, 0.075, 0.785, 0.68))

@@ -18,6 +18,7 @@ from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass
 from evolution.agents.variance import WINDOWS
 from evolution.runs.folder import RunFolder
+from evolution.runs.history import alike
 
 INTACT = "intact"
 
@@ -52,6 +53,7 @@ class ClassBehaviour:
     representative: tuple[RunFolder, int, int] | None
 
     __repr__ = brief
+    __eq__ = alike
 
     @property
     def known(self) -> NDArray[np.bool_]:

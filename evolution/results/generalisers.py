@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 from arm2d.records import brief
 from evolution.agents.parts import late_history
 from evolution.results.statistics import sign_flip_test
-from evolution.runs.folder import RunFolder
+from evolution.runs.folder import AnyRun, RunFolder
+from evolution.runs.history import alike
 from evolution.search.algorithm import rank as ranking
 from evolution.search.settings import N_BEST
 
@@ -55,6 +56,7 @@ class Generalisers:
     longest_line: int
 
     __repr__ = brief
+    __eq__ = alike
 
     def __len__(self) -> int:
         return len(self.ranks)
@@ -66,18 +68,20 @@ class Generalisers:
 
 
 def generalisers_of(
-    run: RunFolder, generations: NDArray[np.integer], members: NDArray[np.bool_]
+    run: AnyRun, generations: NDArray[np.integer], members: NDArray[np.bool_]
 ) -> Generalisers:
     """The fully compositional agents of a run.
 
     Args:
-        run: The run; its files are read only if there are such agents.
+        run: The run, or the path of its folder; its parts are read only if there are such agents.
         generations: [L], the late generations.
         members: [L, 5], which agents are fully compositional.
 
     Raises:
+        ValueError: If there is no such run.
         DamagedFileError: If a part of the run is damaged.
     """
+    run = RunFolder.open(run)
     rows, ranks = np.nonzero(members)
     counts = members.sum(axis=1)
     first = stays = verdicts = np.empty(0, np.int64)

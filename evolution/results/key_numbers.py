@@ -14,6 +14,7 @@ from arm2d.records import brief
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.results import published
 from evolution.results.records import ConditionResults, Results
+from evolution.runs.history import alike
 
 PLATEAU: Final = "plateau"
 AT_LIMIT: Final = "runs that end at 18/7"
@@ -40,6 +41,7 @@ class KeyNumber:
     runs: NDArray[np.float64]
 
     __repr__ = brief
+    __eq__ = alike
 
 
 def top_name(subtask: str) -> str:

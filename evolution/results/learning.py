@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import Condition, Instruction
 from arm2d.records import brief
+from evolution.runs.history import alike
 from evolution.runs.storage import write_atomically
 from evolution.search.evaluation import TRIALS_PER_AREA
 
@@ -49,6 +50,7 @@ class LearningCurve:
     successes: NDArray[np.int64]
 
     __repr__ = brief
+    __eq__ = alike
 
     def __len__(self) -> int:
         return len(self.steps)

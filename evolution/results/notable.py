@@ -6,7 +6,7 @@
 
 They are the nearest that there is: whether one is what its name says, `described` tells.
 
-`wordarm evaluate`, `wordarm port` and `find_agent` take these names.
+`wordarm evaluate`, `wordarm port` and `find_agent` take these names, and `find_agent` takes the records.
 """
 
 from __future__ import annotations
@@ -24,13 +24,14 @@ from evolution.agents.postevaluation import N_INSTRUCTIONS, TRIALS
 from evolution.agents.subtasks import usually
 from evolution.results.records import ConditionResults, Results
 from evolution.runs.folder import RunFolder
+from evolution.runs.history import alike
 from evolution.runs.recorded import recorded_generation
 from evolution.runs.storage import make_folder, write_arrays
 
 
 @dataclass(frozen=True)
 class NotableAgent:
-    """One agent of an experiment, and what it made of nine instructions.
+    """One agent of an experiment, and what it made of nine instructions; `find_agent` gives it in hand.
 
     Attributes:
         run: The run's folder.
@@ -45,20 +46,33 @@ class NotableAgent:
     successes: NDArray[np.int16]
 
     __repr__ = brief
+    __eq__ = alike
 
 
-def best_agent(results: ConditionResults) -> NotableAgent | None:
-    """The agent whose least-mastered instruction of all nine succeeds most; then the most successes."""
-    return _first_by(results, results.successes.min(axis=-1), results.successes.sum(axis=-1))
+def best_agent(of_condition: ConditionResults) -> NotableAgent | None:
+    """The agent whose least-mastered instruction of all nine succeeds most; then the most successes.
+
+    Args:
+        of_condition: The results of one condition, such as `analyse(...).conditions["with-indicate"]`.
+
+    Returns:
+        The agent, which `find_agent` takes; None if there is none.
+
+    Raises:
+        ValueError: If these are results of another kind.
+    """
+    _check_kind(of_condition)
+    return _first_by(of_condition, of_condition.successes.min(axis=-1), of_condition.successes.sum(axis=-1))
 
 
-def best_specialist(results: ConditionResults) -> NotableAgent | None:
-    """The agent that masters the experienced instructions best and never a never-met one."""
-    order = [results.condition.instructions.index(word) for word in NON_EXPERIENCED]
+def best_specialist(of_condition: ConditionResults) -> NotableAgent | None:
+    """The agent that masters the experienced instructions best and never a never-met one; as `best_agent`."""
+    _check_kind(of_condition)
+    order = [of_condition.condition.instructions.index(word) for word in NON_EXPERIENCED]
     known = [i for i in range(N_INSTRUCTIONS) if i not in order]
-    untouched = (results.successes[..., order] == 0).all(axis=-1)
-    skills = results.successes[..., known]
-    return _first_by(results, untouched, skills.min(axis=-1), skills.sum(axis=-1))
+    untouched = (of_condition.successes[..., order] == 0).all(axis=-1)
+    skills = of_condition.successes[..., known]
+    return _first_by(of_condition, untouched, skills.min(axis=-1), skills.sum(axis=-1))
 
 
 def notable_agents(results: Results) -> dict[str, NotableAgent]:
@@ -91,6 +105,15 @@ def ship(agents: Mapping[str, NotableAgent], folder: Path) -> list[Path]:
         paths.append(folder / f"{name}.npz")
         _write(agent, paths[-1])
     return paths
+
+
+def _check_kind(of_condition: object) -> None:
+    """Refuse anything but the results of one condition, such as those of a whole experiment."""
+    if not isinstance(of_condition, ConditionResults):
+        kind = type(of_condition).__name__
+        raise ValueError(
+            f'the results of one condition are needed, such as conditions["with-ignore"], not {kind}'
+        )
 
 
 def _first_by(results: ConditionResults, *keys: NDArray) -> NotableAgent | None:

@@ -20,6 +20,7 @@ from evolution.experiments.experiment import Experiment
 from evolution.results.generalisers import Generalisers
 from evolution.results.statistics import Comparison
 from evolution.runs.folder import RunFolder
+from evolution.runs.history import alike
 from evolution.search.settings import LARGEST_FITNESS, N_BEST
 
 # Runs whose plateau comes so near to the largest fitness count as having reached the paper's 2.57.
@@ -54,6 +55,7 @@ class TransitionOutcome:
     runs_object: int
 
     __repr__ = brief
+    __eq__ = alike
 
 
 @dataclass(frozen=True)
@@ -97,6 +99,7 @@ class ConditionResults:
     missing: tuple[str, ...]
 
     __repr__ = brief
+    __eq__ = alike
 
     @property
     def n_agents(self) -> int:

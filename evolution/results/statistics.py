@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.records import brief
+from evolution.runs.history import alike
 from evolution.search.randomness import Purpose, generator
 
 # Above so many ways of sharing out the runs, permutations are drawn instead of counted.
@@ -102,6 +103,7 @@ class Ways:
     complete: bool
 
     __repr__ = brief
+    __eq__ = alike
 
 
 def ways_to_choose(total: int, n: int, rng: np.random.Generator) -> Ways:

@@ -16,7 +16,7 @@ from evolution.agents.solving import all_solved
 from evolution.agents.transitions import TRANSITION_TEST, TransitionTest
 from evolution.experiments.standing import standing_of
 from evolution.runs.folder import RunFolder
-from evolution.runs.history import History
+from evolution.runs.history import History, alike
 from evolution.runs.recorded import recorded_histories
 from evolution.search.config import RunConfig
 
@@ -44,6 +44,7 @@ class TestedRun:
     transitions: TransitionTest
 
     __repr__ = brief
+    __eq__ = alike
 
 
 def read_tested_runs(runs: Iterable[RunFolder]) -> tuple[list[TestedRun], list[str]]:

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from arm2d import TrialScores, run_trials
 from arm2d.records import brief
 from evolution.runs.folder import CHAMPIONS, RunFolder
-from evolution.runs.history import History
+from evolution.runs.history import History, alike
 from evolution.search.algorithm import mean_in_order
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA, evaluate
@@ -53,6 +53,7 @@ class Candidates:
     ranks: NDArray[np.int64]
 
     __repr__ = brief
+    __eq__ = alike
 
     def __getitem__(self, index: NDArray[np.int64]) -> Candidates:
         return Candidates(self.genotypes[index], self.generations[index], self.ranks[index])

@@ -10,7 +10,9 @@ import hashlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
+from reprlib import repr as shortened
 from typing import Final, Self
 
 import numpy as np
@@ -59,12 +61,16 @@ class RunFolder:
     config: RunConfig
 
     @classmethod
-    def open(cls, path: Path | str) -> Self:
-        """The folder of a run that was started before.
+    def open(cls, path: RunFolder | Path | str) -> Self:
+        """The folder of a run that was started before, by its path; a run that is open already as it is.
 
         Raises:
             ValueError: If there is none, or its config.toml cannot be understood.
         """
+        if isinstance(path, RunFolder):
+            return path if isinstance(path, cls) else cls(path.path, path.config)
+        if not isinstance(path, (str, PathLike)):
+            raise ValueError(f"{shortened(path)} is no run; give a run, or the path of its folder")
         path = Path(path)
         config = path / CONFIG
         if not path.is_dir():
@@ -180,6 +186,10 @@ class RunFolder:
             f"recompute generations {span.start} to {span.stop - 1} with: "
             f"wordarm verify {self.path} --repair",
         )
+
+
+# How a run is given to whatever needs its files.
+AnyRun = RunFolder | Path | str
 
 
 def refuse_other(path: Path, config: RunConfig) -> None:

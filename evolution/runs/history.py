@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
+from operator import index
 from pathlib import Path
+from typing import Any, SupportsIndex
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +21,25 @@ from evolution.search.algorithm import mean_in_order, rank
 from evolution.search.config import RunConfig
 from evolution.search.population import Population
 from evolution.search.settings import LARGEST_TRIAL_FITNESS, N_BEST
+
+
+def alike(self: Any, other: object) -> bool:
+    """Whether two records are of one class and hold the same, arrays compared number by number, NaN as equal.
+
+    In the body of a dataclass, `__eq__ = alike` takes the place of what Python writes, which fails on arrays.
+    """
+    if type(other) is not type(self):
+        return NotImplemented
+    return all(_same(getattr(self, each.name), getattr(other, each.name)) for each in fields(self))
+
+
+def _same(value: Any, other: Any) -> bool:
+    """Whether two fields hold the same: arrays, mappings of them, or anything else."""
+    if isinstance(value, np.ndarray):
+        return np.array_equal(value, other, equal_nan=value.dtype.kind == "f")
+    if isinstance(value, Mapping):
+        return value.keys() == other.keys() and all(_same(value[key], other[key]) for key in value)
+    return bool(value == other)
 
 
 @dataclass(frozen=True)
@@ -46,6 +67,7 @@ class History:
     worst: NDArray[np.float64]
 
     __repr__ = brief
+    __eq__ = alike
 
     @classmethod
     def join(cls, histories: Iterable[History]) -> History:
@@ -56,7 +78,13 @@ class History:
     def __len__(self) -> int:
         return len(self.generations)
 
-    def __getitem__(self, rows: slice) -> History:
+    def __getitem__(self, rows: slice | SupportsIndex) -> History:
+        """The generations of a slice; of a number, which may count from the end, a history of one."""
+        if not isinstance(rows, slice):
+            row = index(rows)
+            if not -len(self) <= row < len(self):
+                raise IndexError(f"there is no generation {row} in a history of {len(self)}, counted from 0")
+            rows = slice(row % len(self), row % len(self) + 1)
         return History(*(getattr(self, each.name)[rows] for each in fields(self)))
 
     def arrays(self) -> dict[str, NDArray]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
+from reprlib import repr as shortened
 from typing import Final
 
 import numpy as np
@@ -13,7 +15,8 @@ from numpy.typing import NDArray
 from arm2d import Condition, Readings, check_genotypes
 from arm2d.tasks.task import AnyTask
 from evolution.runs.arrays import read_genotype_file
-from evolution.runs.folder import CHAMPIONS, RunFolder
+from evolution.runs.folder import CHAMPIONS, AnyRun, RunFolder
+from evolution.runs.history import alike
 from evolution.runs.recorded import recorded_generation, recorded_histories
 from evolution.runs.replay import population_at
 from evolution.search.algorithm import rank as ranking
@@ -44,17 +47,22 @@ class Agent:
     name: str
     folder: RunFolder | None = None
 
+    __eq__ = alike
+
+    def __hash__(self) -> int:
+        return hash((self.origin, self.name))
+
     def __repr__(self) -> str:
         return f"<Agent: {self.origin}>"
 
 
 def find_agent(
-    text: str, *, generation: int | None = None, rank: int = 0, condition: AnyTask | None = None
+    source: AnyRun, *, generation: int | None = None, rank: int = 0, condition: AnyTask | None = None
 ) -> Agent:
     """The genotype that a user means.
 
     Args:
-        text: A run folder, a genotype file (.npz or .npy), or the name of a shipped champion.
+        source: A run, its folder, a genotype file (.npz or .npy), or the name of a shipped champion.
         generation: Of the run; by default its champions are meant.
         rank: 0 for the best of the generation, of the champions, or of the file.
         condition: For files that do not tell; with-indicate if none is given.
@@ -62,7 +70,14 @@ def find_agent(
     Raises:
         ValueError: If there is no such thing, or it is not what it should be.
     """
-    path = Path(text)
+    if isinstance(source, RunFolder):
+        folder = RunFolder(source.path, source.config)
+        return _of_known_condition(_from_run(folder, generation, rank), condition)
+    if not isinstance(source, (str, PathLike)):
+        raise ValueError(
+            f"{shortened(source)} names no agent; give a run, its folder, a genotype file or a shipped name"
+        )
+    text, path = str(source), Path(source)
     if path.is_dir():
         return _of_known_condition(_from_run(RunFolder.open(path), generation, rank), condition)
     if generation is not None:

@@ -16,13 +16,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
+from inspect import signature
 from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from evolution.search.config import RunConfig
-from evolution.search.settings import CMA_ES, GENETIC
+from evolution.search.settings import CMA_ES, GENETIC, NAME
 
 State = Mapping[str, NDArray]
 
@@ -33,8 +34,10 @@ ENTRY_POINTS: Final = "wordarm.algorithms"
 class Algorithm(Protocol):
     """A search in the middle of a run.
 
+    A run makes it anew before every `tell`, from its state alone: what is not in there is lost.
+
     Attributes:
-        generation: Of the genotypes it asks for.
+        generation: Of the genotypes it asks for; the one it was made with, and one more after each `tell`.
     """
 
     generation: int
@@ -51,7 +54,7 @@ class Algorithm(Protocol):
         """All that `tell` and the generations after it need, as arrays of numbers by name.
 
         Two are always among them: `genotypes` [P, G], as asked for, and `parents` [P], which genotype of the
-        generation before each descends from; -1 where it descends from none.
+        generation before each descends from; -1 where it descends from none. They come back read-only.
         """
         ...
 
@@ -72,19 +75,44 @@ def register_algorithm(name: str, maker: Maker) -> None:
     Other processes, such as the workers of an experiment, find those that an installed package names among
     its entry points, in the group `wordarm.algorithms`.
 
+    Args:
+        name: Small letters, digits and dashes, a letter first.
+        maker: Takes (config, generation, state); a class will do.
+
     Raises:
-        ValueError: If the name is one of ours.
+        ValueError: If the name is one of ours or none that settings can have, or the maker takes other
+            arguments.
     """
+    if not isinstance(name, str) or not NAME.fullmatch(name):
+        raise ValueError(
+            f"the algorithm cannot be called {name!r}; give at most 40 small letters, digits and dashes, "
+            "a letter first"
+        )
     if name in _BUILT_IN:
         raise ValueError(f"the algorithm {name} is one of wordarm's; give yours another name")
-    _registered[name] = maker
+    _registered[name] = _checked_maker(name, maker)
+
+
+def _checked_maker(name: str, maker: Maker) -> Maker:
+    """The maker, if it can be called as one; raises `ValueError`."""
+    try:
+        signature(maker).bind(None, 0, None)
+    except TypeError:
+        called = getattr(maker, "__name__", repr(maker))
+        raise ValueError(
+            f"the algorithm {name} cannot be made by {called}; give a class or a function that takes "
+            "(config, generation, state)"
+        ) from None
+    except ValueError:
+        pass  # something compiled, which does not tell what it takes
+    return maker
 
 
 def maker_of(config: RunConfig) -> Maker:
     """What makes the algorithm of a run.
 
     Raises:
-        ValueError: If there is no algorithm of that name.
+        ValueError: If there is no algorithm of that name, or a package's takes other arguments.
     """
     name = config.settings.algorithm
     if name in _BUILT_IN:
@@ -94,7 +122,7 @@ def maker_of(config: RunConfig) -> Maker:
         return _registered[name]
     offered = _offered()
     if name in offered:
-        return offered[name].load()
+        return _checked_maker(name, offered[name].load())
     known = ", ".join([*_BUILT_IN, *_registered, *offered])
     raise ValueError(
         f"the algorithm {name!r} is not known here; there are {known}; one of your own is made known with "

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
+from numbers import Integral
+from reprlib import repr as shortened
 from typing import Any, Final
 
 import tomli_w
 
 from arm2d import Condition, Readings, Task
+from arm2d.readings import checked_readings
 from arm2d.tasks.task import AnyTask, as_paper, papers_condition, read_task, task_of
 from evolution.search.settings import Settings
 from evolution.search.toml import read_toml, table_of
@@ -30,6 +33,9 @@ class RunConfig:
         seed: All of the run's random numbers follow from it.
         settings: The genetic algorithm.
         readings: How the paper is understood.
+
+    Raises:
+        ValueError: If one of them is of another kind, or out of its bounds.
     """
 
     condition: AnyTask = Condition.WITH_INDICATE
@@ -38,9 +44,16 @@ class RunConfig:
     readings: Readings = field(default_factory=Readings)
 
     def __post_init__(self) -> None:
+        checked_readings(self.readings)
+        if not isinstance(self.settings, Settings):
+            raise ValueError(
+                f"settings = {shortened(self.settings)} must be a record, such as Settings(population=20)"
+            )
         object.__setattr__(self, "condition", as_paper(self.condition))
-        if not isinstance(self.seed, int) or isinstance(self.seed, bool) or not 0 <= self.seed < SEED_LIMIT:
+        whole = isinstance(self.seed, Integral) and not isinstance(self.seed, bool)
+        if not whole or not 0 <= self.seed < SEED_LIMIT:
             raise ValueError(f"seed = {self.seed!r} must be a whole number from 0 to 2**63 - 1")
+        object.__setattr__(self, "seed", int(self.seed))  # one of NumPy's is written alike
 
     @property
     def task(self) -> Task:

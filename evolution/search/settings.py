@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
+from numbers import Integral, Real
 from typing import Any, Final
 
 from arm2d.constants import MOST_INTER, N_INTER
@@ -61,8 +62,8 @@ class Settings:
 
     def __post_init__(self) -> None:
         for field in fields(self):
-            _check_kind(field.name, getattr(self, field.name), field.default)
-        object.__setattr__(self, "cma_sigma", float(self.cma_sigma))  # 1 and 1.0 are written alike
+            plain = _of_kind(field.name, getattr(self, field.name), field.default)
+            object.__setattr__(self, field.name, plain)  # 1 and 1.0, or one of NumPy's, are written alike
         _check_interval("population", self.population, N_BEST, 10_000)
         _check_interval("generations", self.generations, 1, 1_000_000)
         _check_interval("trials_per_area", self.trials_per_area, 1, 1_000)
@@ -119,14 +120,16 @@ class Settings:
         return as_usual if self.algorithm == GENETIC else as_usual | set(OF_GENETIC)
 
 
-def _check_kind(name: str, value: Any, default: Any) -> None:
-    """Refuse a value that is not of the kind of its default; a whole number is a number."""
+def _of_kind(name: str, value: Any, default: Any) -> Any:
+    """A value as one of the kind of its default, if it is one; a whole number is a number."""
     if isinstance(default, str):
         if not isinstance(value, str):
             raise ValueError(f"setting {name} = {value!r} must be text, such as {default!r}")
-    elif isinstance(value, bool) or not isinstance(value, int if isinstance(default, int) else (int, float)):
+    elif isinstance(value, bool) or not isinstance(value, Integral if isinstance(default, int) else Real):
         kind = "a whole number" if isinstance(default, int) else "a number"
         raise ValueError(f"setting {name} = {value!r} must be {kind}")
+    plain: Any = type(default)
+    return plain(value)
 
 
 def _check_interval(name: str, value: float, low: float, high: float) -> None:

@@ -21,7 +21,7 @@ from evolution.agents.solving import all_solved
 from evolution.agents.subtasks import AgentClass, categories, classify
 from evolution.results.analysis import PLATEAU_SHARE
 from evolution.results.records import ends_at_largest
-from evolution.runs.folder import RunFolder
+from evolution.runs.folder import AnyRun, RunFolder
 from evolution.runs.history import History, check_array, check_range
 from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.config import RunConfig
@@ -91,17 +91,18 @@ class RunMeasures:
 Simulate = Callable[[RunFolder], NDArray[np.int16]]
 
 
-def measure(folder: RunFolder, simulate: Simulate | None = None) -> RunMeasures:
+def measure(run: AnyRun, simulate: Simulate | None = None) -> RunMeasures:
     """The measures of a finished run; what had to be simulated is kept beside it.
 
     Args:
-        folder: The run.
+        run: The run, or its folder.
         simulate: Carries out the trials of the sampled generations' best, if not the processor.
 
     Raises:
         ValueError: If the run is not finished, or too short.
         DamagedFileError: If a file of it is damaged.
     """
+    folder = RunFolder.open(run)
     check_generations(folder.config.settings.generations)
     if len(folder.finished_spans()) < len(folder.spans):
         raise ValueError(f"{folder.path} is not finished; go on with: wordarm study")

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from evolution.runs.champion import LAST_GENERATIONS, champion_arrays
 from evolution.runs.checkpoint import Checkpoint, load_checkpoint
-from evolution.runs.folder import CHAMPIONS, CHECKPOINT, RunFolder
+from evolution.runs.folder import CHAMPIONS, CHECKPOINT, AnyRun, RunFolder
 from evolution.runs.history import History, HistoryBuilder
 from evolution.runs.run import Progress
 from evolution.runs.storage import DamagedFileError
@@ -50,21 +50,24 @@ class Findings:
 
 
 def verify(
-    folder: RunFolder,
+    run: AnyRun,
     chosen: Collection[int] | None = None,
     on_generation: Callable[[Progress], None] = lambda progress: None,
 ) -> Findings:
     """Recompute a run as far as it has come, up to the first difference.
 
     Args:
-        folder: The run.
+        run: The run, or the path of its folder.
         chosen: Generations to be scored again; all, if None.
         on_generation: Told of every generation.
 
     Returns:
         What was found.
+
+    Raises:
+        ValueError: If there is no such run.
     """
-    findings = Findings()
+    folder, findings = RunFolder.open(run), Findings()
     population, newest = first_population(folder.config), deque[History](maxlen=LAST_GENERATIONS)
     for span, recorded in _recorded(folder, findings):
         for row, generation in enumerate(span):

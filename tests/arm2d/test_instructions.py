@@ -3,7 +3,7 @@
 import pytest
 
 from arm2d import NON_EXPERIENCED, ActionWord, Condition, Instruction, ObjectWord
-from arm2d.instructions import ACTION_CODES, OBJECT_CODES
+from arm2d.instructions import ACTION_CODES, OBJECT_CODES, instructions_of
 
 
 @pytest.mark.parametrize("text", ["touch green", "TOUCH Green", "  Touch   GREEN "])
@@ -29,6 +29,23 @@ def test_printed_instruction_reads_back():
 def test_unknown_words_list_the_known_ones(text, message):
     with pytest.raises(ValueError, match=message):
         Instruction.parse(text)
+
+
+@pytest.mark.parametrize("words", [("touch", "green"), (1, 1), (ObjectWord.GREEN, ActionWord.TOUCH)])
+def test_an_instruction_is_made_of_the_words_themselves(words):
+    with pytest.raises(
+        ValueError, match=r"an ActionWord and an ObjectWord, not .*read by Instruction\.parse$"
+    ):
+        Instruction(*words)
+
+
+def test_one_instruction_or_several_are_taken_as_text_or_as_records():
+    touch, move = Instruction.parse("touch green"), Instruction.parse("move red")
+    assert instructions_of("touch green") == instructions_of(touch) == [touch]
+    assert instructions_of(("touch green", move)) == [touch, move]
+    for wrong in (5, None, [5], ["touch green", 5], [["touch", "green"]]):
+        with pytest.raises(ValueError, match="is no instruction; give text such as 'touch green'"):
+            instructions_of(wrong)
 
 
 def test_each_condition_has_nine_instructions_of_which_two_are_never_met():

@@ -1,5 +1,6 @@
 """The record of readings: presets, what it derives, and what it refuses."""
 
+import re
 from dataclasses import fields, replace
 
 import numpy as np
@@ -106,6 +107,25 @@ def test_every_choice_between_words_names_the_plain_one_first():
 def test_unsound_reading_is_refused_with_what_would_be_right(values, message):
     with pytest.raises(ValueError, match=message):
         Readings.from_mapping(values)
+
+
+@pytest.mark.parametrize(
+    ("centres", "half_width", "span"),
+    [((-15.0, 0.0, 15.0), 30.0, "-37.5 and 37.5"), ((160.0, 180.0, 195.0), 25.0, "145 and 212.5")],
+)
+def test_start_areas_in_which_s1_cannot_stand_are_refused(centres, half_width, span):
+    sentence = (
+        f"with sector_centres = {centres}, start_half_width = {half_width:g} and start_areas = 'between', "
+        f"S1 would start between {span} degrees; it turns from -30 to 210"
+    )
+    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
+        Readings(sector_centres=centres, start_half_width=half_width)
+    assert Readings(sector_centres=centres, start_half_width=half_width, start_areas="bounds")
+
+
+def test_start_areas_may_reach_the_bounds():
+    assert Readings(sector_centres=(-10.0, 10.0, 30.0), start_half_width=30.0).start_intervals[0] == (-30, 30)
+    assert Readings(sector_centres=(150, 170, 190), start_half_width=30).start_intervals[1] == (150, 210)
 
 
 @pytest.mark.parametrize(

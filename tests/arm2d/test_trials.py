@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from arm2d import Condition, LabelChanges, Trials, draw_trials
+from arm2d import Condition, LabelChanges, Task, Trials, draw_trials
 from arm2d.readings import PLAIN
 from arm2d.trials import _chord_ends
 
@@ -105,21 +105,21 @@ def changes(**values):
 
 
 @pytest.mark.parametrize(
-    ("name", "highest"),
+    ("name", "numbers", "highest"),
     [
-        ("first_actions", 3),
-        ("first_objects", 2),
-        ("later_actions", 3),
-        ("later_objects", 2),
-        ("delays", 250),
+        ("first_actions", "codes", 3),
+        ("first_objects", "codes", 2),
+        ("later_actions", "codes", 3),
+        ("later_objects", "codes", 2),
+        ("delays", "numbers of steps", 250),
     ],
 )
-def test_changes_of_words_are_taken_up_to_their_bounds_and_not_beyond(name, highest):
+def test_changes_of_words_are_taken_up_to_their_bounds_and_not_beyond(name, numbers, highest):
     for value in (0, highest):
         assert getattr(changes(**{name: value}), name).tolist() == [value]
     for value in (-1, highest + 1):
         with pytest.raises(
-            ValueError, match=f"{name} holds {value} to {value}; the codes are 0 to {highest}"
+            ValueError, match=f"{name} holds {value} to {value}; the {numbers} are 0 to {highest}"
         ):
             changes(**{name: value})
 
@@ -164,6 +164,65 @@ def test_discs_are_taken_from_where_s2_can_be_and_not_nearer(disc, bearing):
 def test_number_of_changes_is_that_of_the_trials():
     with pytest.raises(ValueError, match="1 trials need as many label changes, not 2"):
         start(changes=LabelChanges(*(np.zeros(2, np.int64) for _ in range(5))))
+
+
+def test_rows_of_changes_are_equally_long():
+    one, two = np.zeros(1, np.int64), np.zeros(2, np.int64)
+    with pytest.raises(ValueError, match=r"have the lengths 2, 2, 2, 2, 1; they must be equally long"):
+        LabelChanges(two, two, two, two, one)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            {"readings": "plain"},
+            r"readings = 'plain' must be a record, such as .*Readings.preset\('plain'\)$",
+        ),
+        ({"readings": None}, "readings = None must be a record"),
+        ({"rng": 1}, r"rng = 1 must be a generator, such as numpy.random.default_rng\(1\)"),
+        ({"per_area": 2.5}, "per_area = 2.5 must be a whole number of trials"),
+        ({"per_area": "2"}, "per_area = '2' must be a whole number of trials"),
+        ({"instructions": 5}, "5 is no instruction; give text such as 'touch green'"),
+        ({"instructions": ["touch red", None]}, "None is no instruction"),
+        ({"task": 5}, "5 is no task; give an arm2d.Task, or with-indicate, with-ignore or with-both"),
+        (
+            {"task": "with-grasp"},
+            "unknown condition 'with-grasp'; there are with-indicate, with-ignore, with-b",
+        ),
+    ],
+)
+def test_what_trials_cannot_be_drawn_from_is_named_with_what_would_be_right(change, message):
+    sound = {"instructions": INSTRUCTIONS, "per_area": 2, "readings": PLAIN, "rng": np.random.default_rng(1)}
+    assert len(draw_trials(**sound)) == 36
+    with pytest.raises(ValueError, match=message):
+        draw_trials(**{**sound, **change})
+
+
+def test_a_whole_number_of_numpy_is_a_number_of_trials():
+    assert len(draw(per_area=np.int64(2))) == 36
+
+
+def test_instructions_are_those_of_the_task_that_is_given_and_any_where_none_is():
+    rng = np.random.default_rng(1)
+    assert len(draw_trials("ignore red", 1, PLAIN, rng)) == 2
+    for task in (Task(), Condition.WITH_INDICATE, "with-indicate"):
+        with pytest.raises(
+            ValueError,
+            match=r"^with-indicate has no instruction IGNORE Red; it has MOVE Blue, .* INDICATE Red$",
+        ):
+            draw_trials(["touch red", "ignore red"], 1, PLAIN, rng, task)
+    for task in (Task(third="both"), Condition.WITH_IGNORE, "with-both"):
+        assert len(draw_trials("ignore red", 1, PLAIN, rng, task)) == 2
+
+
+def test_trials_keep_a_task_of_ones_own_and_none_of_the_papers():
+    for papers in (None, Task(), Condition.WITH_IGNORE, "with-ignore"):
+        assert start(task=papers).task is None
+    for own in (Task(third="both"), "with-both"):
+        assert start(task=own).task == Task(third="both")
+    with pytest.raises(ValueError, match="5 is no task"):
+        start(task=5)
 
 
 def test_so_many_trials_that_no_memory_holds_them_are_refused():

@@ -5,6 +5,8 @@ import shlex
 import matplotlib
 import pytest
 
+from arm2d import Condition, Readings
+from evolution import find_agent
 from evolution.cli import main
 from tests.docs.pages import DOCS, Block, blocks, matches, python_of
 
@@ -42,6 +44,19 @@ def test_code_runs_as_printed(page, tmp_path, monkeypatch, capsys):
     for before, block in zip(blocks(page), blocks(page)[1:], strict=False):
         if (before.language, block.language) == ("python", "text"):
             assert block.text in printed
+
+
+def test_an_agent_found_without_a_run_takes_its_world_along(tmp_path, monkeypatch):
+    """As the page saves it, in a world that is not the usual one."""
+    monkeypatch.chdir(tmp_path)
+    page = blocks(DOCS / "how-to" / "algorithm.md")
+    (code,) = [block.text for block in page if block.language == "python" and "np.savez" in block.text]
+    usual = "arm2d.Condition.WITH_INDICATE, arm2d.Readings()"
+    assert usual in code
+    other = "arm2d.Condition.WITH_IGNORE, arm2d.Readings(object_radius=5.0)"
+    exec(code.replace(usual, other).replace("range(10)", "range(1)"), {"__name__": "__main__"})
+    agent = find_agent("mine.npz")
+    assert (agent.condition, agent.readings) == (Condition.WITH_IGNORE, Readings(object_radius=5.0))
 
 
 def test_a_cluster_is_looked_at_before_it_is_used(tmp_path, monkeypatch, capsys):

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from arm2d import (
+    ActionWord,
     Condition,
     Instruction,
     LabelChanges,
+    ObjectWord,
     Readings,
     Trials,
     draw_trials,
@@ -71,8 +73,9 @@ def changes_of(trials, t):
     if trials.changes is None:
         return None
     each = trials.changes
-    first = Instruction(each.first_actions[t], each.first_objects[t])
-    return first, Instruction(each.later_actions[t], each.later_objects[t]), int(each.delays[t])
+    first = Instruction(ActionWord(each.first_actions[t]), ObjectWord(each.first_objects[t]))
+    later = Instruction(ActionWord(each.later_actions[t]), ObjectWord(each.later_objects[t]))
+    return first, later, int(each.delays[t])
 
 
 @pytest.mark.slow

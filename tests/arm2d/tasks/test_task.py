@@ -154,6 +154,34 @@ def test_one_world_takes_a_task():
         world.hear("move red")
 
 
+@pytest.mark.parametrize(
+    "task", [*Condition, "with-ignore", Task(), Task(third="ignore"), "with-both", *TASKS]
+)
+def test_a_world_takes_whatever_is_a_task_and_no_other_instructions(task):
+    world, known = arm2d.World(task=task), task_of(task).instructions
+    for instruction in known:
+        world.reset(instruction, seed=1)
+        world.step((0, 0))
+        assert world.record().instruction == instruction
+    absent = [each for each in Task(third="both").instructions if each not in known]
+    start = draw_trials("move red", 1, READINGS, np.random.default_rng(4))[0]
+    for instruction in absent:
+        for begin in ({"seed": 1}, {"start": start}):
+            with pytest.raises(ValueError, match=f"has no instruction {instruction}; it has MOVE Blue, "):
+                world.reset(instruction, **begin)
+
+
+def test_trials_of_a_condition_can_be_stepped():
+    drawn = draw_trials("move red", 1, READINGS, np.random.default_rng(4))
+    trials = arm2d.Trials(
+        drawn.actions, drawn.objects, drawn.alpha, drawn.discs, task=Condition.WITH_INDICATE
+    )
+    worlds = arm2d.VectorWorld(trials)
+    worlds.step(np.zeros((2, 2), int))
+    worlds.restart([0], drawn[1])
+    assert worlds.inputs[:, 12:].tolist() == [[0, 1, 1, 0, 1, 1]] * 2
+
+
 def test_trials_begun_anew_begin_with_the_first_word():
     task = Task(words="object-first", word_steps=2)
     trials = draw_trials(["move red", "touch blue"], 1, READINGS, np.random.default_rng(4), task)
@@ -199,6 +227,15 @@ def test_words_in_sequence_do_not_change_in_mid_trial():
         ({"word_steps": 5}, "task word_steps belongs to words that come one after the other"),
         ({"words": "object-first", "word_steps": 126}, "task word_steps = 126 must lie in [1, 125]"),
         ({"words": "object-first", "word_steps": 2.5}, "task word_steps = 2.5 must be a whole number"),
+        (
+            {"held_out": "touch green"},
+            "task held_out = 'touch green' must be a list of texts, such as ['touch green']",
+        ),
+        ({"held_out": 5}, "task held_out = 5 must be a list of texts"),
+        ({"held_out": [5]}, "task held_out = [5] must be a list of texts"),
+        ({"held_out": Instruction.parse("touch green")}, "must be a list of texts"),
+        ({"codes": "touch 111"}, "task codes = 'touch 111' must be a list of texts, such as ['touch 111']"),
+        ({"codes": [111]}, "task codes = [111] must be a list of texts"),
     ],
 )
 def test_a_task_that_makes_no_sense_is_refused_with_the_reason(options, sentence):

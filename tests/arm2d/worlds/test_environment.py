@@ -6,8 +6,9 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
 
-from arm2d import NON_EXPERIENCED, Condition, Instruction, Readings
-from arm2d.worlds.environment import NAME, asked_instructions
+from arm2d import NON_EXPERIENCED, Condition, Instruction, Readings, Task
+from arm2d.worlds.asking import asked_instructions
+from arm2d.worlds.environment import NAME
 
 
 @pytest.mark.parametrize("reward", ["end", "progress"])
@@ -173,6 +174,88 @@ def test_what_cannot_be_asked_is_refused_with_what_can():
     with pytest.raises(ValueError, match="unknown object word"):
         asked_instructions(Condition.WITH_INDICATE, ["touch yellow"])
     assert asked_instructions(Condition.WITH_INDICATE, ["move red"]) == (Instruction.parse("move red"),)
+
+
+MAKERS = [gymnasium.make, gymnasium.make_vec]
+
+
+@pytest.mark.parametrize("make", MAKERS)
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"reward": "progres"}, "reward = 'progres'; choose end or progress"),
+        ({"reward": ["end"]}, r"reward = \['end'\]; choose end or progress"),
+        ({"instructions": ["ignore red"]}, "with-indicate has no instruction IGNORE Red; it has MOVE Blue, "),
+        ({"instructions": ["move red"], "condition": "with-grasp"}, "unknown condition 'with-grasp'"),
+        ({"instructions": []}, "asked for an empty list of instructions; give at least one"),
+        ({"instructions": 5}, "5 is no instruction; give text such as 'touch green'"),
+        ({"readings": "plain"}, "readings = 'plain' must be a record"),
+    ],
+)
+def test_what_an_environment_cannot_be_made_of_is_refused_at_once(make, arguments, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        make(NAME, **arguments)
+
+
+@pytest.mark.parametrize("make", MAKERS)
+def test_instructions_may_be_records_and_an_own_tasks(make):
+    task = Task(third="both")
+    worlds = make(NAME, condition=task, instructions=[Instruction.parse("ignore red"), "indicate red"])
+    assert worlds.unwrapped.source.instructions == (task.instructions[11], task.instructions[8])
+
+
+@pytest.mark.parametrize("make", MAKERS)
+def test_an_instruction_that_the_condition_does_not_have_cannot_be_asked_for(make):
+    worlds = make(NAME)
+    for asked, sentence in {
+        "ignore green": "with-indicate has no instruction IGNORE Green",
+        5: "5 is no",
+    }.items():
+        with pytest.raises(ValueError, match=sentence):
+            worlds.reset(seed=1, options={"instruction": asked})
+
+
+def test_the_first_trials_of_a_vector_ask_what_is_asked_for_from_the_starts_drawn_otherwise():
+    worlds = gymnasium.make_vec(NAME, num_envs=30)
+    inputs, _ = worlds.reset(seed=1)
+    drawn = worlds.unwrapped.world.trials
+    for asked in ("touch green", Instruction.parse("touch green")):
+        inputs, _ = worlds.reset(seed=1, options={"instruction": asked})
+        trials = worlds.unwrapped.world.trials
+        assert set(map(str, trials.instructions)) == {"TOUCH Green"}
+        assert np.array_equal(trials.alpha, drawn.alpha)
+        assert np.array_equal(trials.discs, drawn.discs)
+        assert inputs[:, 12:].tolist() == [[1, 0, 1, 1, 0, 1]] * 30
+    for _ in range(252):
+        worlds.step(np.ones((30, 2), int))
+    assert set(worlds.unwrapped.world.trials.instructions) <= set(Condition.WITH_INDICATE.experienced)
+
+
+@pytest.mark.parametrize(
+    ("action", "sentence"),
+    [
+        ([5, 1], "an action of 5 was given; each is 0, 1 or 2, for a turn of -1, 0 or 1"),
+        ([1, -1], "an action of -1 was given"),
+        ([0.5, 1], "an action of 0.5 was given"),
+        ([np.nan, 1], "an action of nan was given"),
+        (1, "actions must be an array .* of 0, 1 and 2, not int64"),
+        ("up", "actions must be an array .* of 0, 1 and 2, not <U2"),
+    ],
+)
+def test_an_action_that_is_none_is_named_with_what_would_be_right(action, sentence):
+    single, vector = gymnasium.make(NAME).unwrapped, gymnasium.make_vec(NAME, num_envs=1)
+    for world, given in ((single, action), (vector, [action])):
+        world.reset(seed=1)
+        with pytest.raises(ValueError, match=sentence):
+            world.step(given)
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.int64, np.float32])
+def test_actions_are_taken_in_any_kind_of_number(kind):
+    world = gymnasium.make(NAME).unwrapped
+    world.reset(seed=1)
+    world.step(np.array([2, 0], kind))
+    assert np.sign(world.world.record().turns).tolist() == [[1.0, -1.0]]
 
 
 def test_readings_are_those_asked_for():

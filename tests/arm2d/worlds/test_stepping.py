@@ -2,7 +2,9 @@
 
 import runpy
 from dataclasses import fields, replace
+from importlib import import_module
 from pathlib import Path
+from textwrap import dedent
 
 import numpy as np
 import pytest
@@ -161,6 +163,69 @@ def test_a_controller_that_returns_something_else_is_told_what_would_be_right(tu
     world.reset("touch red", seed=1)
     with pytest.raises(ValueError, match="-1, 0 or 1"):
         world.step(turns)
+
+
+@pytest.mark.parametrize("turns", [1, (1,), [[0, 0]], None])
+def test_turns_that_are_no_pair_are_shown(turns):
+    world = World()
+    world.reset("touch red", seed=1)
+    with pytest.raises(
+        ValueError, match="turns must be a pair, S1's and S2's, each -1, 0 or 1; this is "
+    ) as no:
+        world.step(turns)
+    assert str(no.value).endswith(repr(turns))
+    with pytest.raises(ValueError, match="turns must be 1 pair, S1's"):
+        VectorWorld(drawn(1, PLAIN, 1)).step((0, 0))
+
+
+@pytest.mark.parametrize("wrong", [5, None, [None] * 3, [["touch", "red"]] * 3])
+def test_words_that_are_no_instruction_are_named(wrong):
+    with pytest.raises(ValueError, match="is no instruction; give text such as 'touch green'"):
+        World().reset(wrong)
+    with pytest.raises(ValueError, match="is no instruction; give text such as 'touch green'"):
+        VectorWorld(drawn(3, PLAIN, 1)).hear(wrong)
+
+
+def test_words_for_each_trial_come_in_any_sequence():
+    for asked in (["touch green", Instruction.parse("move red")], ("touch green", "move red")):
+        worlds = VectorWorld(drawn(2, PLAIN, 1))
+        worlds.hear(asked)
+        assert worlds.inputs[:, 12:].tolist() == [[1, 0, 1, 1, 0, 1], [0, 1, 1, 0, 1, 1]]
+    with pytest.raises(ValueError, match="2 trials hear one instruction or one each, not 1"):
+        worlds.hear(["touch green"])
+
+
+@pytest.mark.parametrize("which", [[0.7], [1.0], 0.7, [True], "1", [None]])
+def test_a_restart_takes_whole_numbers_only(which):
+    worlds = VectorWorld(drawn(2, PLAIN, 1))
+    with pytest.raises(ValueError, match="a restart takes whole numbers of trials, such as"):
+        worlds.restart(which, drawn(1, PLAIN, 2))
+    worlds.restart([], drawn(2, PLAIN, 2)[:0])
+
+
+def test_worlds_show_themselves_on_one_line():
+    world = World()
+    assert repr(world) == "<World: no trial yet>"
+    world.reset("ignore green", seed=1)
+    for _ in range(12):
+        world.step((0, 0))
+    assert repr(world) == "<World: IGNORE Green, step 12>"
+    while not world.ended:
+        world.step((0, 0))
+    assert repr(world) == "<World: IGNORE Green, step 100, over>"
+    assert repr(VectorWorld(drawn(36, PLAIN, 1))) == "<VectorWorld: 36 trials, 0 over>"
+
+
+@pytest.mark.parametrize("world", [World, lambda readings: VectorWorld(drawn(1, PLAIN, 1), readings)])
+def test_readings_of_another_kind_are_refused_when_a_world_is_made(world):
+    with pytest.raises(ValueError, match="readings = 'plain' must be a record"):
+        world("plain")
+
+
+@pytest.mark.parametrize("module", ["world", "vector_world"])
+def test_the_loop_in_a_modules_first_words_is_python(module):
+    text = import_module(f"arm2d.worlds.{module}").__doc__
+    compile(dedent(text.split("\n", 2)[2]), module, "exec")
 
 
 def test_a_world_without_a_trial_or_after_its_end_says_so():

@@ -53,6 +53,13 @@ def test_trials_stand_in_the_order_of_instructions_and_areas(behaviour):
     assert set(behaviour.objects[touch_red]) == {2}
 
 
+def test_trials_of_an_instruction_are_found_by_its_text(behaviour):
+    touch_green = Instruction(ActionWord.TOUCH, ObjectWord.GREEN)
+    assert behaviour.of("touch green").tolist() == behaviour.of(touch_green).tolist() != []
+    with pytest.raises(ValueError, match="with-indicate has no instruction IGNORE Green; it has MOVE Blue, "):
+        behaviour.of("ignore green")
+
+
 def test_first_sight_is_that_of_a_camera_at_the_end_of_s1(evolved_agent):
     end = replace(PLAIN, camera_origin="end")
     behaviour = record_behaviour(evolved_agent, INDICATE, end, per_area=1)

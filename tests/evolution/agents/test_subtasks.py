@@ -3,8 +3,15 @@
 import numpy as np
 import pytest
 
-from arm2d import NON_EXPERIENCED, Condition
-from evolution.agents.subtasks import AgentClass, categories, classify, count_table
+from arm2d import NON_EXPERIENCED, Condition, Task
+from evolution.agents.subtasks import (
+    AgentClass,
+    carries_out,
+    categories,
+    classify,
+    count_table,
+    obeys_experienced,
+)
 from evolution.results import published
 
 CONDITION = Condition.WITH_INDICATE
@@ -51,6 +58,46 @@ def test_every_agent_is_counted_once_in_each_sub_task():
 def test_classes_are_those_above_three_quarters_and_below_a_tenth(successes, expected):
     found = [kind for kind, members in classify(successes, CONDITION).items() if members[0]]
     assert found == ([expected] if expected else [])
+
+
+def test_classes_are_of_the_papers_two_conditions_which_may_be_named():
+    named = classify(agent(), "with-indicate")
+    assert [kind for kind, members in named.items() if members[0]] == [AgentClass.FULL]
+    other = Task(held_out=("indicate red", "move green"))  # both of which this agent fails
+    successes = np.full((1, 9), 80)
+    successes[0, [other.instructions.index(word) for word in other.held_out]] = 0
+    with pytest.raises(ValueError, match="this classification is made for the paper's two conditions"):
+        classify(successes, other)
+    assert obeys_experienced(successes, other).all()
+    assert not carries_out(successes, other, other.held_out[0]).any()
+
+
+@pytest.mark.parametrize(
+    ("successes", "sentence"),
+    [
+        (agent() / 80, r"whole numbers \[A, 9\] of 80 trials, .* but had float64 \[1, 9\]"),
+        (agent(), None),
+        (agent() > 60, r"whole numbers \[A, 9\] of 80 trials, .* but had bool \[1, 9\]"),
+        (agent()[0], r"of 80 trials, .* but had int64 \[9\]"),
+        (np.zeros((1, 9, 2), int), r"of 80 trials, .* but had int64 \[1, 9, 2\]"),
+        (np.zeros((1, 12), int), r"of 80 trials, .* but had int64 \[1, 12\]"),
+        (agent(others=81), "must be of 80 trials, so 0 to 80, but had 81"),
+        (agent(move_blue=-1), "must be of 80 trials, so 0 to 80, but had -1"),
+    ],
+)
+def test_only_counts_of_eighty_trials_are_taken(successes, sentence):
+    asked = (
+        classify,
+        categories,
+        obeys_experienced,
+        lambda found, condition: carries_out(found, condition, NON_EXPERIENCED[0]),
+    )
+    for ask in asked:
+        if sentence is None:
+            ask(successes, CONDITION)
+            continue
+        with pytest.raises(ValueError, match=sentence):
+            ask(successes, CONDITION)
 
 
 @pytest.mark.parametrize("condition", Condition)

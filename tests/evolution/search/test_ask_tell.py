@@ -4,11 +4,14 @@ import shutil
 from dataclasses import replace
 from importlib import metadata
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
 import evolution
+from arm2d import Task, draw_trials, run_trials
 from evolution.cli import main
 from evolution.runs.checkpoint import load_checkpoint, save_checkpoint
 from evolution.runs.folder import RunFolder
@@ -16,7 +19,7 @@ from evolution.runs.recorded import recorded_generation, recorded_history
 from evolution.runs.replay import population_at
 from evolution.runs.run import Watcher, evolve
 from evolution.search import ask_tell
-from evolution.search.ask_tell import begin, register_algorithm
+from evolution.search.ask_tell import begin, maker_of, register_algorithm
 from evolution.search.cma_es import CmaEs
 from evolution.search.config import RunConfig
 from evolution.search.genetic import GeneticAlgorithm
@@ -216,6 +219,196 @@ def test_algorithms_of_installed_packages_are_found(monkeypatch):
 def test_our_names_cannot_be_taken():
     with pytest.raises(ValueError, match="the algorithm cma-es is one of wordarm's"):
         register_algorithm("cma-es", GeneticAlgorithm)
+
+
+@pytest.mark.parametrize("name", ["My Alg", "", "-alg", "a" * 41, 3, ["own"]])
+def test_a_name_that_no_settings_can_have_is_refused(name):
+    with pytest.raises(ValueError, match=re.escape(f"the algorithm cannot be called {name!r}; give at most")):
+        register_algorithm(name, GeneticAlgorithm)
+
+
+@pytest.mark.parametrize("maker", [3, lambda: None, lambda config: None, lambda config, *, state: None])
+def test_a_maker_that_takes_other_arguments_is_refused(maker, monkeypatch, tmp_path):
+    """When it is registered; one that a package names, before a folder is made."""
+    with pytest.raises(ValueError, match="the algorithm own cannot be made by "):
+        register_algorithm("own", maker)
+    entry = SimpleNamespace(name="offered", load=lambda: maker)
+    monkeypatch.setattr(ask_tell, "entry_points", lambda group: [entry])
+    config = RunConfig(settings=Settings(algorithm="offered"))
+    with pytest.raises(ValueError, match="the algorithm offered cannot be made by "):
+        evolve(tmp_path / "run", config)
+    assert not (tmp_path / "run").exists()
+
+
+class Own:
+    """A sound one of a user's own: random genotypes, and all that NumPy can make arrays of in its state."""
+
+    kinds: ClassVar = {"genotypes": np.float64, "parents": np.int64}
+    changes: ClassVar = {}  # of its state
+
+    def __init__(self, config, generation=0, state=None):
+        self.config, self.generation = config, generation
+        self.best = 0.0 if state is None else state["best"]
+
+    def genotypes(self):
+        rng = np.random.default_rng([self.config.seed, self.generation])
+        drawn = rng.random((self.config.settings.population, self.config.settings.n_genes))
+        return drawn.astype(self.kinds["genotypes"])
+
+    def ask(self):
+        return self.genotypes()
+
+    def tell(self, fitness):
+        self.best = max(float(self.best), float(fitness.max()))
+        self.generation += 1
+
+    def state(self):
+        parents = np.full(self.config.settings.population, -1, self.kinds["parents"])
+        own = {"best": self.best, "list": [[1, 2], [3, 4]], "flag": True, "columns": np.eye(3)[:, ::2]}
+        return {"genotypes": self.genotypes(), "parents": parents, **own, **self.changes}
+
+
+@pytest.fixture
+def own(monkeypatch):
+    """Registers a class, with other things in its state, and gives the run that it searches for."""
+
+    def registered(base=Own, **changes):
+        monkeypatch.setitem(ask_tell._registered, "own", type("Changed", (base,), {"changes": changes}))
+        return RunConfig(seed=5, settings=Settings(population=10, generations=6, algorithm="own"))
+
+    return registered
+
+
+@pytest.mark.parametrize(
+    "kinds",
+    [{}, {"genotypes": np.float32}, {"parents": np.int32}, {"genotypes": ">f8", "parents": np.int8}],
+    ids=["usual", "float32", "int32", "foreign"],
+)
+def test_a_state_of_other_kinds_of_numbers_is_gone_on_with(kinds, own, tmp_path):
+    """A stopped run goes on from its checkpoint, and has the bytes of one that was never stopped."""
+    config = own(type("Kinds", (Own,), {"kinds": Own.kinds | kinds}))
+    evolve(tmp_path / "whole", config)
+    seen, notes = [], []
+    evolve(tmp_path / "run", config, stopping_at(3))
+    evolve(tmp_path / "run", config, Watcher(on_start=seen.append, on_note=notes.append))
+    assert (seen, notes) == ([4], [])
+    assert contents(tmp_path / "run") == contents(tmp_path / "whole")
+    population = first_population(config)
+    assert (population.genotypes.dtype, population.parents.dtype) == (np.float64, np.int64)
+    for array in population.memory.values():  # as one that comes from a checkpoint
+        assert (array.flags.c_contiguous, array.flags.writeable) == (True, False)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"genotypes": np.zeros((6, 84))}, "gave genotypes of shape (6, 84), not (10, 84)"),
+        ({"genotypes": np.zeros(84)}, "gave genotypes of shape (84,), not (10, 84)"),
+        ({"genotypes": np.zeros((10, 83))}, "a controller of three inter-neurons needs [P, 84]"),
+        ({"genotypes": np.full((10, 84), 1.5)}, "gene 0 of genotype 0 is 1.5; genes lie in [0, 1]"),
+        ({"genotypes": np.full((10, 84), np.nan)}, "gave genotypes with what is no number, not finite"),
+        ({"genotypes": np.zeros((10, 84))}, "gave other genotypes in state() than in ask(), not the same"),
+        ({"genotypes": None}, "gave genotypes as NoneType, not as numbers"),
+        ({"parents": np.full(10, 50)}, "gave parents from 50 to 50, not from -1 to 9"),
+        ({"parents": np.full(10, -2)}, "gave parents from -2 to -2, not from -1 to 9"),
+        ({"parents": np.full(10, 2**64 - 1, np.uint64)}, "to 18446744073709551615, not from -1 to 9"),
+        ({"parents": np.zeros(6, int)}, "gave parents as int64 of shape (6,), not whole numbers of shape"),
+        ({"parents": np.zeros(10)}, "gave parents as float64 of shape (10,), not whole numbers of shape"),
+        ({"word": "text"}, "gave word as str, not as numbers"),
+        ({"word": None}, "gave word as NoneType, not as numbers"),
+        ({"list": [[1], [1, 2]]}, "gave list as list, not as numbers"),
+        ({"complex": np.ones(2, complex)}, "gave complex as ndarray of complex128, not as numbers"),
+        ({"mean": np.array([0.0, np.inf])}, "gave mean with what is no number, not finite numbers alone"),
+        ({"a\0b": 1.0}, "gave 'a\\x00b' as a name in its state, not plain text"),
+        ({f"a{i}": i for i in range(60)}, "gave a state of 66 arrays with "),
+        ({"large": np.zeros(2**22 + 1)}, "bytes beside the genotypes, not of at most 64 with 33,554,432"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_a_state_that_no_run_can_keep_is_refused_at_once(changes, sentence, own):
+    """In generation 0 and after it."""
+    sound = own()
+    population = first_population(sound)
+    config = own(**changes)
+    for hand_over in (first_population, lambda run: next_population(population, np.zeros(10), run)):
+        with pytest.raises(ValueError, match=re.escape(sentence)) as caught:
+            hand_over(config)
+        assert str(caught.value).startswith("the algorithm own gave ")
+
+
+@pytest.mark.parametrize(
+    ("state", "sentence"),
+    [
+        (None, "gave NoneType as its state, not arrays by name"),
+        ({}, "gave a state of nothing, not one with genotypes and parents"),
+        ({"genotypes": np.zeros((10, 84)), "mean": 1}, "gave a state of genotypes, mean, not one with"),
+    ],
+)
+def test_a_state_that_lacks_what_a_run_needs_is_refused(state, sentence, own):
+    config = own(type("Other", (Own,), {"state": lambda self: state}))
+    with pytest.raises(ValueError, match=f"the algorithm own {sentence}"):
+        first_population(config)
+
+
+def test_a_run_scores_what_is_asked_for(own):
+    """One whose `ask` draws anew in every call would be scored with other genotypes than it knows of."""
+    stream = np.random.default_rng(1)
+    config = own(type("Fickle", (Own,), {"ask": lambda self: stream.random((10, 84))}))
+    with pytest.raises(ValueError, match=r"the algorithm own gave other genotypes in state\(\) than in ask"):
+        first_population(config)
+
+
+@pytest.mark.parametrize(("step", "reached"), [(0, 3), (2, 5), (-1, 2)])
+def test_one_that_does_not_go_on_by_one_generation_is_refused(step, reached, own):
+    population = replace(first_population(own()), generation=3)
+
+    def tell(self, fitness):
+        self.generation += step
+
+    with pytest.raises(ValueError, match=f"the algorithm own is at generation {reached}, not 4; its maker"):
+        next_population(population, np.zeros(10), own(type("Stuck", (Own,), {"tell": tell})))
+
+
+def test_one_that_forgets_the_generation_it_is_made_with_is_refused(own, tmp_path):
+    def begin_anew(self, config, generation, state):
+        Own.__init__(self, config, 0, state)
+
+    with pytest.raises(ValueError, match="the algorithm own is at generation 1, not 2; its maker must begin"):
+        evolve(tmp_path / "run", own(type("Forgetful", (Own,), {"__init__": begin_anew})))
+
+
+def test_what_is_no_algorithm_is_refused(own, monkeypatch):
+    config = own()
+    monkeypatch.setitem(ask_tell._registered, "own", lambda config, generation, state: None)
+    with pytest.raises(
+        ValueError, match="the algorithm own has no generation; give it generation, ask, tell"
+    ):
+        first_population(config)
+
+
+def test_the_record_keeps_the_fitness_that_was_scored(own, tmp_path):
+    """Also where `tell` sorts or scales what it is told in place."""
+
+    def tell(self, fitness):
+        Own.tell(self, fitness)
+        fitness[:] = 7.0
+
+    evolve(tmp_path / "plain", own())
+    evolve(tmp_path / "changed", own(type("InPlace", (Own,), {"tell": tell})))
+    assert contents(tmp_path / "changed") == contents(tmp_path / "plain")
+
+
+@pytest.mark.parametrize("task", [Task(words="object-first"), Task(places="dealt")], ids=str)
+def test_the_example_looks_at_behaviour_in_the_world_of_its_task(task, map_elites):
+    """What it finds out is what run_trials makes of that task's trials, not of the paper's."""
+    config = replace(map_elites, condition=task)
+    genotypes = np.random.default_rng(2).random((10, 84))
+    example: Any = maker_of(config)(config, 0, None)
+    found = example.behaviour_of(genotypes)
+    trials = draw_trials(task.experienced, 1, config.readings, np.random.default_rng(0), task)[::2]
+    scores = run_trials(genotypes, trials, config.readings)
+    expected = np.stack([scores.f3.mean(axis=1), scores.steps.mean(axis=1) / 250], axis=1)
+    np.testing.assert_array_equal(found, expected)
 
 
 def test_settings_of_the_paper_are_written_as_before_and_others_only_where_they_are():

@@ -1,5 +1,6 @@
 import re
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -75,6 +76,34 @@ def test_an_impossible_config_is_refused_with_what_would_be_right(text, sentence
 def test_any_other_text_is_refused_plainly(text):
     with pytest.raises(ValueError, match=r"\w"):
         RunConfig.from_toml(text)
+
+
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        (
+            {"settings": {"population": 10}},
+            "settings = {'population': 10} must be a record, such as Settings(",
+        ),
+        ({"settings": Readings()}, "settings = Readings() must be a record, such as Settings("),
+        ({"readings": "plain"}, "readings = 'plain' must be a record, such as Readings("),
+        ({"readings": Settings()}, "must be a record, such as Readings("),
+        ({"condition": None}, "None is no task; give an arm2d.Task, or with-indicate"),
+        ({"seed": 1.0}, "seed = 1.0 must be a whole number"),
+    ],
+)
+def test_parts_of_another_kind_are_refused(values, sentence):
+    with pytest.raises(ValueError, match=re.escape(sentence)):
+        RunConfig(**values)
+
+
+def test_whole_numbers_of_numpy_are_written_as_pythons():
+    numbers = {"population": 20, "elites": 1, "parents": 5, "generations": 7, "inter_neurons": 4}
+    of_numpy = Settings(**{name: np.int64(value) for name, value in numbers.items()})
+    config = RunConfig(seed=np.arange(4)[3], settings=of_numpy)
+    assert config.to_toml() == RunConfig(seed=3, settings=Settings(**numbers)).to_toml()
+    assert {type(config.seed), *(type(getattr(of_numpy, name)) for name in numbers)} == {int}
+    assert type(Settings(algorithm="cma-es", cma_sigma=np.float32(0.5)).cma_sigma) is float
 
 
 def test_a_whole_number_and_its_fraction_are_the_same_setting():
