@@ -61,6 +61,7 @@ from .search.ask_tell import register_algorithm as register_algorithm
 from .search.config import RunConfig as RunConfig
 from .search.evaluation import Evaluation as Evaluation
 from .search.evaluation import evaluate as evaluate
+from .search.evaluation import evaluation_trials as evaluation_trials
 from .search.settings import Settings as Settings
 from .study.measures import RunMeasures as RunMeasures
 from .study.measures import measure as measure

@@ -8,7 +8,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from arm2d import Readings, draw_trials, run_trials
+from arm2d import Readings, Trials, TrialScores, draw_trials, run_trials
+from arm2d.readings import given_or_default
 from arm2d.tasks.task import AnyTask, as_paper
 from evolution.search.algorithm import mean_in_order
 from evolution.search.randomness import Purpose, generator
@@ -42,6 +43,50 @@ class Evaluation:
     f2: NDArray[np.float64]
     f3: NDArray[np.float64]
     steps: NDArray[np.float64]
+
+    @classmethod
+    def of(
+        cls,
+        scores: TrialScores,
+        condition: AnyTask | str,
+        *,
+        per_area: int = TRIALS_PER_AREA,
+        trial_seed: int = 0,
+    ) -> Evaluation:
+        """What scores [P, T] of `evaluation_trials` come to, whoever made them.
+
+        Args:
+            scores: Such as `VectorWorld.scores()` of a controller of your own.
+            condition: As the trials were drawn with, and likewise
+            per_area: and
+            trial_seed: which the record keeps.
+
+        Raises:
+            ValueError: If there are not as many trials as so many of each instruction are.
+        """
+        condition = as_paper(condition)
+        n_genotypes, n_trials = scores.f1.shape
+        n_instructions = len(condition.instructions)
+        if n_trials != n_instructions * 2 * per_area:
+            raise ValueError(
+                f"{n_trials} trials are not {2 * per_area} of each of {n_instructions} instructions; "
+                "give the per_area that they were drawn with"
+            )
+
+        def mean(values: NDArray) -> NDArray[np.float64]:
+            return mean_in_order(values.reshape(n_genotypes, n_instructions, -1))
+
+        return cls(
+            condition=condition,
+            per_area=per_area,
+            trial_seed=trial_seed,
+            successes=scores.success.reshape(n_genotypes, n_instructions, 2, per_area).sum(axis=-1),
+            fitness=mean(scores.fitness),
+            f1=mean(scores.f1),
+            f2=mean(scores.f2),
+            f3=mean(scores.f3),
+            steps=mean(scores.steps),
+        )
 
     def __repr__(self) -> str:
         n_agents, n_instructions = self.fitness.shape
@@ -85,23 +130,29 @@ def evaluate(
     Raises:
         ValueError: If a genotype is unsound, or there are no trials.
     """
-    condition, readings = as_paper(condition), readings or Readings()
-    rng = generator(trial_seed, Purpose.EVALUATION)
-    trials = draw_trials(condition.instructions, per_area, readings, rng, condition)
+    readings = given_or_default(readings)
+    trials = evaluation_trials(condition, readings, per_area=per_area, trial_seed=trial_seed)
     scores = run_trials(genotypes, trials, readings)
-    n_genotypes, n_instructions = len(scores.f1), len(condition.instructions)
+    return Evaluation.of(scores, condition, per_area=per_area, trial_seed=trial_seed)
 
-    def mean(values: NDArray) -> NDArray[np.float64]:
-        return mean_in_order(values.reshape(n_genotypes, n_instructions, -1))
 
-    return Evaluation(
-        condition=condition,
-        per_area=per_area,
-        trial_seed=trial_seed,
-        successes=scores.success.reshape(n_genotypes, n_instructions, 2, per_area).sum(axis=-1),
-        fitness=mean(scores.fitness),
-        f1=mean(scores.f1),
-        f2=mean(scores.f2),
-        f3=mean(scores.f3),
-        steps=mean(scores.steps),
-    )
+def evaluation_trials(
+    condition: AnyTask | str,
+    readings: Readings | None = None,
+    *,
+    per_area: int = TRIALS_PER_AREA,
+    trial_seed: int = 0,
+) -> Trials:
+    """The trials that `evaluate` runs: instruction by instruction, right starts before left ones.
+
+    Args:
+        condition: Which instructions, as in `evaluate`.
+        readings: The world; the default readings if none are given.
+        per_area: Trials of each instruction from each start area.
+        trial_seed: Draws the trials.
+
+    Raises:
+        ValueError: If there are no trials.
+    """
+    condition, rng = as_paper(condition), generator(trial_seed, Purpose.EVALUATION)
+    return draw_trials(condition.instructions, per_area, given_or_default(readings), rng, condition)

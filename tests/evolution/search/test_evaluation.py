@@ -1,15 +1,17 @@
 import csv
 import io
 import json
+from dataclasses import fields
 
 import numpy as np
 import pytest
 
-from arm2d import Condition, Readings
+from arm2d import Condition, Readings, Task, VectorWorld
 from evolution.report.evaluation import instruction_table, terminal_table, to_json
 from evolution.runs.sources import Agent
 from evolution.search.config import RunConfig
-from evolution.search.evaluation import evaluate
+from evolution.search.evaluation import Evaluation, evaluate, evaluation_trials
+from tests.arm2d.controllers import steady_controller
 from tests.evolution.small_runs import SMALL
 
 GENOTYPES = np.random.default_rng(4).random((3, 84))
@@ -85,3 +87,23 @@ def test_the_terminal_table_marks_the_never_met_ones():
 def test_no_trials_are_refused():
     with pytest.raises(ValueError, match="0 trials per area"):
         evaluate(GENOTYPES, Condition.WITH_INDICATE, Readings(), per_area=0)
+
+
+@pytest.mark.parametrize(
+    "task", [*Condition, Task(words="object-first", word_steps=5, held_out=["move red"])]
+)
+def test_a_controller_that_steps_the_same_trials_is_judged_as_a_network_is(task):
+    """One that always turns likewise, as a network and as turns from outside."""
+    turns = (1, -1)
+    worlds = VectorWorld(evaluation_trials(task, per_area=3, trial_seed=5))
+    while not worlds.ended.all():
+        worlds.step(np.tile(turns, (len(worlds), 1)))
+    stepped = Evaluation.of(worlds.scores(), task, per_area=3, trial_seed=5)
+    network = evaluate(steady_controller(*turns), task, per_area=3, trial_seed=5)
+    assert stepped.fitness.any()
+    for field in fields(Evaluation):
+        np.testing.assert_array_equal(getattr(stepped, field.name), getattr(network, field.name))
+    with pytest.raises(
+        ValueError, match=r"54 trials are not 80 of each of 9 instructions; give the per_area"
+    ):
+        Evaluation.of(worlds.scores(), task)
