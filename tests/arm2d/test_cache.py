@@ -198,12 +198,13 @@ def test_compiled_code_is_kept_and_found(fresh):
 def test_another_clone_finds_it_and_other_content_does_not(fresh, tmp_path):
     load, _ = fresh
     assert not found(load())
-    source = shutil.copytree(tmp_path, tmp_path / "clone", ignore=lambda *_: ["cache"]) / "doubling.py"
-    assert found(load(source))
-    source.write_text("FACTOR = 3.0\ndef twice(x):\n    return FACTOR * x\n")
-    assert load(source)(21.0) == 63.0
-    source.write_text("FACTOR = 4.0\ndef twice(x):\n    return FACTOR * x\n")  # the same byte code
-    assert load(source)(21.0) == 84.0
+    (clone := tmp_path / "clone").mkdir()
+    assert found(load(shutil.copy(tmp_path / "doubling.py", clone)))
+    for factor in (3.0, 4.0):  # the same byte code
+        (other := tmp_path / f"times-{factor}").mkdir()
+        source = other / "doubling.py"
+        source.write_text(f"FACTOR = {factor}\ndef twice(x):\n    return FACTOR * x\n")
+        assert load(source)(21.0) == factor * 21.0
     assert found(load())
 
 
