@@ -19,7 +19,7 @@ from arm2d import constants as c
 from arm2d.arithmetic import sin_cos
 from arm2d.instructions import ActionWord, Instruction, ObjectWord, instructions_of
 from arm2d.readings import Readings, checked_readings
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from arm2d.tasks.task import AnyTask, Task, as_paper, check_asked, own_task
 
 MOST_PER_AREA = 100_000
@@ -50,6 +50,7 @@ class LabelChanges:
     delays: NDArray[np.int64]
 
     __repr__ = brief
+    __eq__ = alike
 
     def __post_init__(self) -> None:
         for name, low, high in (
@@ -94,6 +95,8 @@ class Trials:
     discs: NDArray[np.float64]
     changes: LabelChanges | None = None
     task: Task | None = None
+
+    __eq__ = alike
 
     def __post_init__(self) -> None:
         _store(self, "actions", _whole_numbers("actions", self.actions, 0, len(ActionWord) - 1))
@@ -150,6 +153,8 @@ class TrialScores:
     success: NDArray[np.bool_]
     steps: NDArray[np.int64]
 
+    __eq__ = alike
+
     def __repr__(self) -> str:
         n_genotypes, n_trials = self.success.shape
         share = f", {100 * self.success.mean():.0f} % carried out" if self.success.size else ""
@@ -190,6 +195,8 @@ class TrialRecord:
     turns: NDArray[np.float64]
     scores: TrialScores
     task: Task | None = None
+
+    __eq__ = alike
 
     def __repr__(self) -> str:
         outcome = "" if self.success else "not "

@@ -16,6 +16,7 @@ from arm2d.compiling import compiled
 from arm2d.constants import MOST_INTER, N_INPUTS, N_INTER, N_MOTORS
 from arm2d.network.genes import SIZES, Genes, counted, genes_of, told
 from arm2d.readings import Readings
+from arm2d.records import alike
 
 # What a gene of 0 and of 1 stands for.
 SENSORY_WEIGHT_RANGE = (-8.0, 8.0)
@@ -51,6 +52,8 @@ class Networks:
     inter_biases: NDArray[np.float64]
     motor_bias: NDArray[np.float64]
     gain: NDArray[np.float64]
+
+    __eq__ = alike
 
     def __repr__(self) -> str:
         return f"<Networks of {len(self.gain)} genotype{'s' * (len(self.gain) != 1)}>"

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from arm2d import constants as c
 from arm2d.geometry import offset_of
 from arm2d.instructions import ActionWord
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from arm2d.reference import LEFT, RIGHT, goal, is_good, score, sees
 from arm2d.trials import TrialRecord
 
@@ -33,6 +33,7 @@ class Progress:
     score: NDArray[np.float64]
 
     __repr__ = brief
+    __eq__ = alike
 
 
 def progress_of(record: TrialRecord) -> Progress:

@@ -16,10 +16,9 @@ from arm2d.arithmetic import sigmoid
 from arm2d.constants import MAX_STEPS
 from arm2d.geometry import in_view
 from arm2d.instructions import instruction_of
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from arm2d.tasks.task import AnyTask, check_asked, papers_condition
 from evolution.agents.firsts import first_row
-from evolution.runs.history import alike
 from evolution.search.randomness import Purpose, generator
 
 TRIALS_PER_AREA: Final = 20

@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.behaviour import record_behaviour
 from evolution.agents.lesions import LESIONS, lesion_scores
 from evolution.agents.parts import late_history
@@ -22,7 +22,7 @@ from evolution.agents.postevaluation import N_INSTRUCTIONS, POST_EVALUATION
 from evolution.agents.subtasks import AgentClass, classify
 from evolution.agents.variance import WINDOWS, VarianceShares, bin_times, shares_by_event
 from evolution.runs.folder import AnyRun, RunFolder
-from evolution.runs.history import alike, check_array, check_range
+from evolution.runs.history import check_array, check_range
 from evolution.runs.storage import DamagedFileError, make_folder
 from evolution.search.settings import N_BEST
 

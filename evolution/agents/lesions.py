@@ -15,10 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import ActionWord, Condition, LabelChanges, ObjectWord, Readings, Trials, run_trials
 from arm2d.kernel.world import WORD_CODES
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from arm2d.tasks.task import AnyTask, papers_condition
 from evolution.agents.behaviour import TRIALS_PER_AREA, draw_behaviour_trials
-from evolution.runs.history import alike
 
 WORDS: Final = ("action", "object")
 TIMES: Final = ("before sight", "after sight")

@@ -14,9 +14,9 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.runs.folder import AnyRun, RunFolder
-from evolution.runs.history import History, alike
+from evolution.runs.history import History
 from evolution.runs.recorded import recorded_history
 from evolution.runs.replay import ContradictionError, replay
 from evolution.search.algorithm import rank as ranking

@@ -14,12 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, TrialRecord, Trials, draw_trials, record_trial, run_trials
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from arm2d.tasks.task import AnyTask, papers_condition
 from evolution.agents.firsts import first_rows
 from evolution.agents.lineage import Lineage
 from evolution.agents.subtasks import USUALLY
-from evolution.runs.history import alike
 from evolution.search.randomness import Purpose, generator
 
 # A skill is had above the limit of the paper's classes of agents. It has come when 25 generations

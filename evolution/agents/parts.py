@@ -14,6 +14,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from arm2d.records import alike
 from evolution.runs.folder import RunFolder
 from evolution.runs.history import History
 from evolution.runs.storage import make_folder
@@ -37,6 +38,8 @@ class LateTest(Generic[T]):
     result: type[T]
     test: Callable[[RunFolder, range], T]
     check: Callable[[Path, Mapping[str, NDArray], RunFolder, range], None]
+
+    __eq__ = alike
 
     def path(self, run: RunFolder, span: range) -> Path:
         """Where the results of some generations are kept."""

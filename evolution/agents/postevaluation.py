@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import draw_trials, run_trials
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.parts import LateTest, best_genotypes
 from evolution.runs.folder import AnyRun, RunFolder
-from evolution.runs.history import alike, check_array, check_range
+from evolution.runs.history import check_array, check_range
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
 from evolution.search.randomness import Purpose, generator

@@ -30,12 +30,12 @@ from arm2d import (
     draw_trials,
     run_trials,
 )
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.parts import LateTest, best_genotypes, joined
 from evolution.agents.postevaluation import POST_EVALUATION, TRIALS
 from evolution.agents.subtasks import AgentClass, classify, usually
 from evolution.runs.folder import AnyRun, RunFolder
-from evolution.runs.history import alike, check_array, check_range
+from evolution.runs.history import check_array, check_range
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA
 from evolution.search.randomness import Purpose, generator

@@ -12,10 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d.constants import DT
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.behaviour import Behaviour
 from evolution.agents.firsts import NEVER
-from evolution.runs.history import alike
 
 # Bins from so many steps before an event to so many after it.
 BEFORE, AFTER = 30, 60

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import NON_EXPERIENCED, Instruction
 from arm2d.drawing import FULL, INK, OBJECT_COLOURS, SMALL, STYLE, look
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.firsts import NEVER
 from evolution.agents.lineage_scores import IN_A_ROW, LineageScores, Skills
 from evolution.figures.page import FAINT, SHARE_COLOURS, beside, head
@@ -52,6 +52,7 @@ class Row:
     beside: NDArray[np.float64] | None = None
 
     __repr__ = brief
+    __eq__ = alike
 
 
 def lineage_figure(scores: LineageScores, origin: str = "") -> Figure:

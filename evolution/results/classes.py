@@ -12,13 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.classes import CLASSES, PARTS, Observation
 from evolution.agents.lesions import LESIONS
 from evolution.agents.subtasks import AgentClass
 from evolution.agents.variance import WINDOWS
 from evolution.runs.folder import RunFolder
-from evolution.runs.history import alike
 
 INTACT = "intact"
 

@@ -19,11 +19,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.parts import late_history
 from evolution.results.statistics import sign_flip_test
 from evolution.runs.folder import AnyRun, RunFolder
-from evolution.runs.history import alike
 from evolution.search.algorithm import rank as ranking
 from evolution.search.settings import N_BEST
 

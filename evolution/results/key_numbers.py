@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.results import published
 from evolution.results.records import ConditionResults, Results
-from evolution.runs.history import alike
 
 PLATEAU: Final = "plateau"
 AT_LIMIT: Final = "runs that end at 18/7"

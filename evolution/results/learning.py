@@ -20,8 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from arm2d import Condition, Instruction
-from arm2d.records import brief
-from evolution.runs.history import alike
+from arm2d.records import alike, brief
 from evolution.runs.storage import write_atomically
 from evolution.search.evaluation import TRIALS_PER_AREA
 

@@ -19,12 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.postevaluation import N_INSTRUCTIONS, TRIALS
 from evolution.agents.subtasks import usually
 from evolution.results.records import ConditionResults, Results
 from evolution.runs.folder import RunFolder
-from evolution.runs.history import alike
 from evolution.runs.recorded import recorded_generation
 from evolution.runs.storage import make_folder, write_arrays
 

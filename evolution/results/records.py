@@ -13,14 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from arm2d import Condition
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.firsts import NEVER
 from evolution.agents.subtasks import SUBTASKS, AgentClass
 from evolution.experiments.experiment import Experiment
 from evolution.results.generalisers import Generalisers
 from evolution.results.statistics import Comparison
 from evolution.runs.folder import RunFolder
-from evolution.runs.history import alike
 from evolution.search.settings import LARGEST_FITNESS, N_BEST
 
 # Runs whose plateau comes so near to the largest fitness count as having reached the paper's 2.57.

@@ -20,8 +20,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.records import brief
-from evolution.runs.history import alike
+from arm2d.records import alike, brief
 from evolution.search.randomness import Purpose, generator
 
 # Above so many ways of sharing out the runs, permutations are drawn instead of counted.

@@ -9,14 +9,14 @@ from shlex import quote
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.firsts import first_row
 from evolution.agents.postevaluation import POST_EVALUATION, PostEvaluation
 from evolution.agents.solving import all_solved
 from evolution.agents.transitions import TRANSITION_TEST, TransitionTest
 from evolution.experiments.standing import standing_of
 from evolution.runs.folder import RunFolder
-from evolution.runs.history import History, alike
+from evolution.runs.history import History
 from evolution.runs.recorded import recorded_histories
 from evolution.search.config import RunConfig
 

@@ -24,9 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import TrialScores, run_trials
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.runs.folder import CHAMPIONS, RunFolder
-from evolution.runs.history import History, alike
+from evolution.runs.history import History
 from evolution.search.algorithm import mean_in_order
 from evolution.search.config import RunConfig
 from evolution.search.evaluation import TRIALS_PER_AREA, evaluate

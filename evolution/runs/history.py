@@ -10,36 +10,17 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from operator import index
 from pathlib import Path
-from typing import Any, SupportsIndex
+from typing import SupportsIndex
 
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.runs.storage import DamagedFileError
 from evolution.search.algorithm import mean_in_order, rank
 from evolution.search.config import RunConfig
 from evolution.search.population import Population
 from evolution.search.settings import LARGEST_TRIAL_FITNESS, N_BEST
-
-
-def alike(self: Any, other: object) -> bool:
-    """Whether two records are of one class and hold the same, arrays compared number by number, NaN as equal.
-
-    In the body of a dataclass, `__eq__ = alike` takes the place of what Python writes, which fails on arrays.
-    """
-    if type(other) is not type(self):
-        return NotImplemented
-    return all(_same(getattr(self, each.name), getattr(other, each.name)) for each in fields(self))
-
-
-def _same(value: Any, other: Any) -> bool:
-    """Whether two fields hold the same: arrays, mappings of them, or anything else."""
-    if isinstance(value, np.ndarray):
-        return np.array_equal(value, other, equal_nan=value.dtype.kind == "f")
-    if isinstance(value, Mapping):
-        return value.keys() == other.keys() and all(_same(value[key], other[key]) for key in value)
-    return bool(value == other)
 
 
 @dataclass(frozen=True)

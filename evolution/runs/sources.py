@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings, check_genotypes
+from arm2d.records import alike
 from arm2d.tasks.task import AnyTask
 from evolution.runs.arrays import read_genotype_file
 from evolution.runs.folder import CHAMPIONS, AnyRun, RunFolder
-from evolution.runs.history import alike
 from evolution.runs.recorded import recorded_generation, recorded_histories
 from evolution.runs.replay import population_at
 from evolution.search.algorithm import rank as ranking

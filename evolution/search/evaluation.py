@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from arm2d import Readings, Trials, TrialScores, draw_trials, run_trials
 from arm2d.readings import given_or_default
+from arm2d.records import alike
 from arm2d.tasks.task import AnyTask, as_paper
 from evolution.search.algorithm import mean_in_order
 from evolution.search.randomness import Purpose, generator
@@ -43,6 +44,8 @@ class Evaluation:
     f2: NDArray[np.float64]
     f3: NDArray[np.float64]
     steps: NDArray[np.float64]
+
+    __eq__ = alike
 
     @classmethod
     def of(

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.subtasks import AgentClass
 from evolution.study.table import VariantMeasures
 
@@ -51,6 +51,7 @@ class Drawn:
     success: NDArray[np.float64]
 
     __repr__ = brief
+    __eq__ = alike
 
     def only(self, seeds: Iterable[int]) -> Drawn:
         """The runs with these seeds alone."""

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from arm2d import Condition
 from arm2d.drawing import FULL, INK, OBJECT_COLOURS, SMALL, STYLE, look
+from arm2d.records import alike
 from evolution.agents.subtasks import SUBTASKS
 from evolution.figures.page import (
     FAINT,
@@ -46,6 +47,8 @@ class Column:
     values: Callable[[Drawn], NDArray[Any]]
     published: Callable[[Condition], float | None]
     limits: tuple[float | None, float]  # None: as low as the runs are
+
+    __eq__ = alike
 
 
 def _published_share(condition: Condition) -> float:

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.agents.firsts import NEVER, first_row
 from evolution.agents.parts import best_genotypes, late_spans
 from evolution.agents.postevaluation import successes_by_area
@@ -54,6 +54,7 @@ class RunMeasures:
     successes: NDArray[np.int16]
 
     __repr__ = brief
+    __eq__ = alike
 
     @property
     def at_limit(self) -> bool:

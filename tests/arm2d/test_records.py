@@ -1,10 +1,17 @@
-"""Records print as one short line, and instructions may be given as text."""
+"""Records print as one short line, can be compared, and instructions may be given as text."""
+
+import inspect
+import pkgutil
+from dataclasses import fields, is_dataclass, replace
+from importlib import import_module
 
 import numpy as np
 import pytest
 
+import arm2d
+import evolution
 from arm2d import Condition, Instruction, LabelChanges, Readings, Trials, decode, draw_trials, run_trials
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from tests.arm2d.controllers import steady_controller
 
 READINGS = Readings()
@@ -99,3 +106,37 @@ def test_a_single_instruction_needs_no_list(one):
 def test_text_that_is_no_instruction_is_named():
     with pytest.raises(ValueError, match="unknown object word 'yellow'; this world knows blue, green, red"):
         trials(["touch yellow"])
+
+
+def records_of_arrays():
+    """Every dataclass of the planar world and the evolution that has an array among its fields."""
+    for package in (arm2d, evolution):
+        for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            if found.name.endswith("__main__"):
+                continue
+            module = import_module(found.name)
+            for kind in vars(module).values():
+                own = inspect.isclass(kind) and kind.__module__ == module.__name__
+                if own and is_dataclass(kind) and any("NDArray" in str(each.type) for each in fields(kind)):
+                    yield kind
+
+
+def test_every_record_of_arrays_can_be_compared():
+    """What Python writes for a dataclass fails: "the truth value of an array is ambiguous"."""
+    found = list(records_of_arrays())
+    assert len(found) > 30
+    assert [kind.__name__ for kind in found if kind.__eq__ not in (alike, object.__eq__)] == []
+
+
+def test_trials_and_what_comes_of_them_are_equal_if_all_numbers_are():
+    readings, genotype = arm2d.Readings(), np.random.default_rng(2).random(84)
+    one, other = (
+        arm2d.draw_trials(["touch red", "move blue"], 2, readings, np.random.default_rng(1)) for _ in range(2)
+    )
+    assert one == other
+    assert one != one[:3]
+    assert one != replace(one, alpha=one.alpha + 1e-9)
+    assert arm2d.run_trials(genotype, one) == arm2d.run_trials(genotype, other)
+    assert arm2d.record_trial(genotype, one[0]) == arm2d.record_trial(genotype, other[0])
+    assert arm2d.record_trial(genotype, one[0]) != arm2d.record_trial(genotype, one[1])
+    assert arm2d.decode(genotype, readings) == arm2d.decode(genotype, readings)

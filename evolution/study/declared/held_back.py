@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.results.statistics import BOOTSTRAP_SAMPLES
 from evolution.search.randomness import Purpose, generator
 from evolution.study.declared.outcomes import Outcome
@@ -37,6 +37,7 @@ class Check:
     without: float
 
     __repr__ = brief
+    __eq__ = alike
 
     @property
     def skill(self) -> Estimate:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import Condition, Readings
+from arm2d.records import alike
 from evolution.study.declared.factors import FACTORS, world_of
 from evolution.study.declared.outcomes import FIGURES
 from evolution.study.declared.regression import SIGNIFICANT, SIZES, Model
@@ -42,6 +43,8 @@ class Nearest:
     readings: Readings
     distance: float
     predicted: Mapping[Condition, NDArray[np.float64]]
+
+    __eq__ = alike
 
 
 def spreads(runs: Sequence[MeasuredRun]) -> dict[Condition, NDArray[np.float64]]:

@@ -16,7 +16,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.results.statistics import NORMAL_95
 from evolution.study.declared.factors import FACTORS, levels_of
 from evolution.study.declared.outcomes import Outcome
@@ -82,6 +82,7 @@ class Model:
     tried: Mapping[Pair, float]
 
     __repr__ = brief
+    __eq__ = alike
 
     @cached_property
     def corrected(self) -> NDArray[np.float64]:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arm2d import NON_EXPERIENCED, Condition
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from arm2d.trials import START_AREAS
 from evolution.agents.postevaluation import N_INSTRUCTIONS, POST_EVALUATION, TRIALS
 from evolution.agents.subtasks import (
@@ -76,6 +76,7 @@ class MeasuredRun:
     successes: NDArray[np.float64]
 
     __repr__ = brief
+    __eq__ = alike
 
     @property
     def solved(self) -> bool:

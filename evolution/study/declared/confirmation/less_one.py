@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from arm2d.records import brief
+from arm2d.records import alike, brief
 from evolution.report.columns import PlainTable
 from evolution.results.statistics import mean_interval, sign_flip_test
 from evolution.search.randomness import Purpose, generator
@@ -47,6 +47,7 @@ class Cost:
     winners_at_limit: int
 
     __repr__ = brief
+    __eq__ = alike
 
 
 def costs(winner: Sequence[MeasuredRun], without: Mapping[str, Sequence[MeasuredRun]]) -> list[Cost]:
