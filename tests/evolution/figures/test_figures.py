@@ -87,3 +87,9 @@ def test_figures_are_written_as_png_and_svg_with_the_same_bytes_each_time(evalua
     assert first[0].startswith(b"\x89PNG")
     assert ElementTree.fromstring(first[1]).tag.endswith("svg")
     assert sorted(each.name for each in tmp_path.iterdir()) == ["one.png", "one.svg", "two.png", "two.svg"]
+
+
+def test_a_heat_map_of_several_agents_is_refused():
+    three = evaluate(np.random.default_rng(1).random((3, 84)), Condition.WITH_IGNORE, per_area=1)
+    with pytest.raises(ValueError, match="a heat map is of one agent, not of 3; evaluate one of them"):
+        heat_map(three)
