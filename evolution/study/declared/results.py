@@ -11,6 +11,7 @@ from arm2d import Condition
 from evolution.experiments.variants import variant_name
 from evolution.figures.page import save_figure
 from evolution.report.columns import PlainTable
+from evolution.results.wording import TITLES
 from evolution.runs.storage import make_folder, write_atomically
 from evolution.study.declared.claim import answer_table, averaged_over_worlds
 from evolution.study.declared.factors import FACTORS, levels_of
@@ -193,4 +194,4 @@ def _each(models: Models) -> Iterable[tuple[Condition, Model]]:
 
 
 def _counted(models: Models) -> str:
-    return ", ".join(f"{len(own[0].levels)} runs {condition}" for condition, own in models.items())
+    return ", ".join(f"{len(own[0].levels)} runs {TITLES[condition]}" for condition, own in models.items())
