@@ -15,16 +15,10 @@ from arm2d.drawing import FULL, INK, SMALL, STYLE, look
 from arm2d.tasks.task import task_of
 from evolution.figures.page import CONDITION_COLOURS, FAINT, SERIES, headed
 from evolution.results.wording import TITLES
-from evolution.study.beyond.answers import (
-    OUTCOMES,
-    TESTED,
-    UNDERSTOOD,
-    Comparison,
-    Group,
-    Outcome,
-    verdict_of,
-)
 from evolution.study.beyond.cells import CELLS, PAPER
+from evolution.study.beyond.comparisons import Comparison, verdict_of
+from evolution.study.beyond.groups import Group
+from evolution.study.beyond.outcomes import OUTCOMES, TESTED, UNDERSTOOD, Outcome
 
 # By the third action: where in its row a group is drawn, in which colour, and what that is called.
 LOOKS: Final = {

@@ -12,19 +12,12 @@ import numpy as np
 from evolution.figures.page import save_figure
 from evolution.report.columns import PlainTable
 from evolution.runs.storage import make_folder, write_atomically
-from evolution.study.beyond.answers import (
-    OUTCOMES,
-    UNDERSTOOD,
-    Comparison,
-    Group,
-    Outcome,
-    comparisons,
-    groups_of,
-    sentences,
-    verdict_of,
-)
+from evolution.study.beyond.answers import sentences
 from evolution.study.beyond.cells import NAME
+from evolution.study.beyond.comparisons import Comparison, comparisons, verdict_of
 from evolution.study.beyond.figure import cells_figure
+from evolution.study.beyond.groups import Group, groups_of
+from evolution.study.beyond.outcomes import OUTCOMES, UNDERSTOOD, Outcome
 from evolution.study.beyond.rows import CellRun, write_rows
 from evolution.study.declared.regression import SIGNIFICANT, estimate_columns
 

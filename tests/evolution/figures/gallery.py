@@ -28,8 +28,9 @@ from evolution.results.learning import LearningCurve
 from evolution.runs.history import History
 from evolution.runs.sources import find_agent
 from evolution.search.evaluation import evaluate
-from evolution.study.beyond.answers import comparisons, groups_of
+from evolution.study.beyond.comparisons import comparisons
 from evolution.study.beyond.figure import cells_figure
+from evolution.study.beyond.groups import groups_of
 from evolution.study.declared.claim_figure import claim_figure
 from evolution.study.declared.confirmation.less_one import Cost
 from evolution.study.declared.confirmation.less_one_figure import less_one_figure

@@ -2,7 +2,8 @@
 
 import pytest
 
-from evolution.study.beyond.answers import comparisons, groups_of
+from evolution.study.beyond.comparisons import comparisons
+from evolution.study.beyond.groups import groups_of
 from tests.evolution.study.beyond.made_up import SEEDS, made_study
 
 

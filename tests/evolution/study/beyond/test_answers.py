@@ -9,20 +9,11 @@ import pytest
 
 from arm2d import Condition, Instruction
 from evolution.results.statistics import proportion_interval, proportions_interval
-from evolution.study.beyond.answers import (
-    ALL_UNDERSTOOD,
-    OUTCOMES,
-    PLATEAU,
-    SOLVED,
-    TESTED,
-    UNDERSTOOD,
-    comparisons,
-    effects_of,
-    groups_of,
-    sentences,
-    verdict_of,
-)
+from evolution.study.beyond.answers import effects_of, sentences
 from evolution.study.beyond.cells import BY_NAME, CELLS
+from evolution.study.beyond.comparisons import comparisons, verdict_of
+from evolution.study.beyond.groups import groups_of
+from evolution.study.beyond.outcomes import ALL_UNDERSTOOD, OUTCOMES, PLATEAU, SOLVED, TESTED, UNDERSTOOD
 from evolution.study.beyond.results import cell_table, comparison_table
 from tests.evolution.study.beyond.made_up import AGENTS, CONFIGS, SEEDS, made_study, made_up
 

@@ -5,17 +5,11 @@ import pytest
 from matplotlib.colors import to_hex
 
 from evolution.figures.page import CONDITION_COLOURS, SERIES
-from evolution.study.beyond.answers import (
-    ALL_UNDERSTOOD,
-    OUTCOMES,
-    TESTED,
-    UNDERSTOOD,
-    comparisons,
-    groups_of,
-    verdict_of,
-)
 from evolution.study.beyond.cells import CELLS
+from evolution.study.beyond.comparisons import comparisons, verdict_of
 from evolution.study.beyond.figure import LOOKS, NOT_COMPARED, PAPER_WIDTH, cells_figure, drawn_words
+from evolution.study.beyond.groups import groups_of
+from evolution.study.beyond.outcomes import ALL_UNDERSTOOD, OUTCOMES, TESTED, UNDERSTOOD
 from tests.evolution.study.beyond.made_up import SEEDS, made_study
 
 
