@@ -8,7 +8,7 @@ from typing import Final
 from evolution.study.beyond.cells import PAPER, Cell
 from evolution.study.beyond.comparisons import Comparison, verdict_of
 from evolution.study.beyond.groups import Group
-from evolution.study.beyond.outcomes import PLATEAU, SOLVED, TESTED, UNDERSTOOD
+from evolution.study.beyond.outcomes import PLATEAU, SOLVED, TESTED, UNDERSTOOD, Words
 
 # What a change does, of these outcomes.
 SUBJECTS: Final = {"evolution": (SOLVED, PLATEAU), "understanding": (UNDERSTOOD,)}
@@ -48,11 +48,16 @@ def _with_success(cell: Cell, effect: str, found: Iterable[Comparison]) -> str:
     more = "more" if effect == "helps" else "less"
     own = [each for each in found if each.group.cell == cell and each.outcome == UNDERSTOOD]
     shares = "; ".join(
-        f"{each.paper.task} {100 * each.group.of_obeying(each.words):.1f} % "
-        f"({100 * each.paper.of_obeying(each.words):.1f} % in the paper's task)"
+        f"{each.paper.task} {_of_obeying(each.group, each.words)} "
+        f"({_of_obeying(each.paper, each.words)} in the paper's task)"
         for each in own
     )
     return (
         f"{cell.name}: {more} is understood where evolution succeeds {more}; of the agents that obey all "
         f"experienced instructions understand: {shares}"
     )
+
+
+def _of_obeying(group: Group, words: Words) -> str:
+    """Of agents that obey, the share that understands, if there is such an agent."""
+    return f"{100 * group.of_obeying(words):.1f} %" if group.obeying_runs else "none, for none obeys"

@@ -191,6 +191,18 @@ def test_understanding_that_goes_with_success_is_said_to_do_so(groups, found):
         assert f"with-{third} {shares[0]:.1f} % ({shares[1]:.1f} % in the paper's task)" in line
 
 
+def test_where_no_agent_obeys_it_is_said_that_none_does():
+    runs = [
+        made_up(run.config, 0.1) if run.cell == "dealt" else replace(run, first_solved=1)
+        for run in made_study(SEEDS)
+    ]
+    groups = groups_of(runs)
+    (line,) = [line for line in sentences(groups, comparisons(groups)) if "is understood where" in line]
+    assert line.startswith("dealt: less is understood where evolution succeeds less; ")
+    assert line.count("none, for none obeys (") == 2
+    assert "nan" not in line
+
+
 @pytest.mark.parametrize(
     ("level", "paper", "said"),
     [(0.9, (0.7, 0.8), ["twelve helps evolution"]), (0.6, (0.7, 0.8), ["twelve hinders evolution"]),
