@@ -183,10 +183,3 @@ def test_algorithms_are_told_as_their_table_has_them():
         assert told[name] == [row[column] for row in ordered], name
     scored = [f"{float(row['evaluations to get there (median)']):,.0f}" for row in ordered]
     assert told["genotypes scored until then, median"] == scored
-
-
-def test_the_page_beyond_the_paper_says_how_many_runs_are_measured():
-    found = rows("beyond.csv")
-    assert len(by(found, "cell", "condition", "seed")) == len(found)
-    page = (DOCS / "beyond.md").read_text("utf-8")
-    assert f"**Begun: {len(found)} of 380 runs are measured**" in page

@@ -118,7 +118,7 @@ def test_stopped_it_goes_on_with_the_same_command_to_the_same_bits(studied, begu
         [sys.executable, "-m", "evolution", *command(folder, begun)],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
-    wait_for((run / "measures" / "late.npz").exists)
+    wait_for((run / "config.toml").exists)
     process.send_signal(signal.SIGINT)
     output, errors = process.communicate(timeout=60)
     assert process.returncode == 130, errors
