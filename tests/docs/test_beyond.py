@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from evolution.results.wording import TITLES
 from evolution.study.beyond.answers import SUBJECTS, effects_of
 from evolution.study.beyond.cells import BY_NAME, PAPER
 from evolution.study.beyond.comparisons import comparisons, verdict_of
@@ -78,3 +79,13 @@ def test_it_says_what_each_change_does_and_nothing_else(found):
     }
     assert said == effects
     assert {subject for _, _, subject in effects} <= set(SUBJECTS)
+
+
+def test_what_shows_a_verdict_stands_on_it_with_its_numbers(found):
+    names = {"solved": "runs that solve", "plateau": "plateau", "understood": "understood"}
+    for each in found:
+        if each.verdict != "undecided":
+            own = each.difference
+            value, low, high = 100 * own.value, 100 * own.low, 100 * own.high
+            told = f"{TITLES[each.paper.task]}: {names[each.outcome.name]} {value:+.0f} points"
+            assert f"{told} [{low:.0f}, {high:.0f}], p = {each.corrected:.2g}" in PAGE
